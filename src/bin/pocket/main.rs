@@ -1,0 +1,3 @@
+//! The binary `pocket`.
+
+fn main() {}

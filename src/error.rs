@@ -1,0 +1,149 @@
+//! What can go wrong: an [`Error`] stops a call, a [`Defect`] is a fault of the drawing that the
+//! rest of it survives.
+
+use crate::geom::Point;
+use serde::Serialize;
+
+/// Why a call gave no result. Each variant is something that the caller can act on.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A file could not be read or written.
+    #[error("cannot {action} {path}: {cause}")]
+    File {
+        /// `read` or `write`.
+        action: &'static str,
+        /// Which file.
+        path: String,
+        /// What the system says.
+        cause: std::io::Error,
+    },
+    /// The bytes are no drawing that can be read.
+    #[error("{path} is not a readable drawing: {reason}")]
+    NotADrawing {
+        /// Which file.
+        path: String,
+        /// What was found instead.
+        reason: String,
+    },
+    /// The drawing holds nothing that can be machined.
+    #[error("nothing to machine: {reason}")]
+    NothingToMachine {
+        /// Why not.
+        reason: String,
+    },
+    /// Loops that do not bound a pocket: all faults, each with its place.
+    #[error("the loops do not bound a pocket: {}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "))]
+    Defects(Vec<Defect>),
+    /// A number that the caller chose is out of its range.
+    #[error("{name} is {value}, but must be {range}")]
+    Parameter {
+        /// Which one.
+        name: &'static str,
+        /// What was given.
+        value: f64,
+        /// What is allowed.
+        range: &'static str,
+    },
+    /// A limit on effort was reached.
+    #[error("{what} would need {needed}, more than the limit of {limit}")]
+    Effort {
+        /// What was too much.
+        what: &'static str,
+        /// How much it would take.
+        needed: u64,
+        /// The limit.
+        limit: u64,
+    },
+    /// The caller asked to stop.
+    #[error("cancelled")]
+    Cancelled,
+    /// A fault of this library. The drawing that shows it is worth a report.
+    #[error("internal fault near ({}, {}): {what}; please report it with the drawing", .at.x, .at.y)]
+    Internal {
+        /// What was found inconsistent.
+        what: String,
+        /// Where in the drawing.
+        at: Point,
+    },
+}
+
+/// A fault of the drawing, with its place. Distances are in job units.
+#[derive(Clone, Debug, PartialEq, Serialize, thiserror::Error)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum Defect {
+    /// A chain of curves that does not close.
+    #[error("open contour from ({}, {}) to ({}, {}), a gap of {gap:.4}", .start.x, .start.y, .end.x, .end.y)]
+    OpenContour {
+        /// One end.
+        start: Point,
+        /// The other end.
+        end: Point,
+        /// Distance between the ends.
+        gap: f64,
+        /// Whether it lies in a pocket, where it may be a lost island.
+        inside: bool,
+    },
+    /// Curves that are drawn more than once; the copies were dropped.
+    #[error("{count} duplicates dropped, one at ({}, {})", .at.x, .at.y)]
+    Duplicates {
+        /// How many were dropped.
+        count: usize,
+        /// Where one of them begins.
+        at: Point,
+    },
+    /// Contours that cross; the whole nest around them was left out.
+    #[error("contours cross at ({}, {})", .at.x, .at.y)]
+    Crossing {
+        /// A common point.
+        at: Point,
+    },
+    /// A contour that crosses itself; the whole nest around it was left out.
+    #[error("a contour crosses itself at ({}, {})", .at.x, .at.y)]
+    SelfCrossing {
+        /// The double point.
+        at: Point,
+    },
+    /// A curve with a coordinate that is not finite or too large to calculate with.
+    #[error("a curve near ({}, {}) has a coordinate that is not a usable number", .at.x, .at.y)]
+    Coordinate {
+        /// Where it begins, as far as that is known.
+        at: Point,
+    },
+    /// A loop that encloses nothing.
+    #[error("the loop at ({}, {}) encloses no area", .at.x, .at.y)]
+    NoArea {
+        /// Its first vertex.
+        at: Point,
+    },
+}
+
+impl Defect {
+    /// Where in the drawing, one place.
+    pub fn at(&self) -> Point {
+        match self {
+            Defect::OpenContour { start, .. } => *start,
+            Defect::Duplicates { at, .. }
+            | Defect::Crossing { at }
+            | Defect::SelfCrossing { at }
+            | Defect::Coordinate { at }
+            | Defect::NoArea { at } => *at,
+        }
+    }
+
+    /// What to do about it.
+    pub fn help(&self) -> String {
+        match self {
+            Defect::OpenContour { gap, .. } => {
+                format!("close the contour in the drawing, or try --join {:.4}", gap * 1.01)
+            }
+            Defect::Duplicates { .. } => "nothing to do; equal curves count once".into(),
+            Defect::Crossing { .. } | Defect::SelfCrossing { .. } => {
+                "trim the curves in the drawing so that contours touch at most, or select with --layer".into()
+            }
+            Defect::Coordinate { .. } => "repair the curve in the drawing".into(),
+            Defect::NoArea { .. } => "remove the loop from the drawing".into(),
+        }
+    }
+}
