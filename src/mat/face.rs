@@ -241,7 +241,7 @@ fn equal_reach(sites: &[Site], track: &Track<'_>, after: &Piece, before: &Piece,
 }
 
 /// Where a function falls through zero between two places; it need not be continuous.
-pub(super) fn falling_root(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
+pub(crate) fn falling_root(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
     let (mut at_low, mut at_high, mut side) = (1.0, -1.0, 0);
     for step in 0..STEPS {
         if high - low <= f64::EPSILON * high {

@@ -10,7 +10,7 @@ use super::track::Track;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BoundaryPiece {
     pub piece: Piece,
-    /// The piece that follows on the boundary.
+    /// The piece that follows on the boundary; [`NONE`] for what is no piece, the way over a link.
     pub next: u32,
     /// The edge on its left, [`NONE`] along the contact arc of a leaf.
     pub edge: u32,
@@ -46,7 +46,8 @@ impl Graph {
         for row in &map.rows {
             for i in row.clone() {
                 let piece = map.piece(sites, i, before(i, row));
-                graph.pieces.push(BoundaryPiece { piece, next: follow[i as usize], edge: NONE });
+                let next = if map.visits[i as usize].crossed { NONE } else { follow[i as usize] };
+                graph.pieces.push(BoundaryPiece { piece, next, edge: NONE });
             }
         }
         graph.solve_faces(sites, &map);

@@ -12,6 +12,8 @@ use super::graph::{DISK_ERROR, Graph};
 pub(crate) struct Kinds {
     pub kinds: Vec<Kind>,
     pub on_neck: Vec<bool>,
+    /// Whether no way leads up from its plateau.
+    pub on_peak: Vec<bool>,
 }
 
 /// Which ways lead away from a plateau.
@@ -47,11 +49,13 @@ impl Kinds {
         }
         let mut kinds = Vec::with_capacity(n);
         let mut on_neck = Vec::with_capacity(n);
+        let mut on_peak = Vec::with_capacity(n);
         for (i, &degree) in degree.iter().enumerate() {
             let way = ways[find(&mut plateau, i as u32) as usize];
             let neck = way.down == 0 && way.up >= 2;
             let peak = way.up == 0 && way.down > 0;
             on_neck.push(neck && graph.disks[i].radius > 0.0);
+            on_peak.push(way.up == 0);
             kinds.push(match degree {
                 0 => Kind::Peak,
                 1 => Kind::Leaf,
@@ -61,7 +65,7 @@ impl Kinds {
                 _ => Kind::Branch,
             });
         }
-        Kinds { kinds, on_neck }
+        Kinds { kinds, on_neck, on_peak }
     }
 }
 

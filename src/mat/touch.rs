@@ -18,7 +18,7 @@ use crate::geom::{Point, Vector};
 
 /// A place of the boundary and the normal along which a disk grows there.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Probe {
+pub(crate) struct Probe {
     /// The nearer end of the piece that is probed.
     pub base: Point,
     /// From there to the place.
@@ -44,7 +44,7 @@ impl Probe {
 
 /// Where on a site a disk touches it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Contact {
+pub(crate) enum Contact {
     /// Between its ends, tangentially.
     Inside,
     Start,
@@ -55,7 +55,7 @@ pub(super) enum Contact {
 
 /// A site, or a part of one.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Span<'a> {
+pub(crate) struct Span<'a> {
     pub site: &'a Site,
     pub from: &'a Foot,
     pub to: &'a Foot,
@@ -72,7 +72,7 @@ impl<'a> Span<'a> {
 
 /// Radius of the disk that touches the span, and where; infinite when none does.
 #[inline]
-pub(super) fn touch(span: Span<'_>, probe: &Probe) -> (f64, Contact) {
+pub(crate) fn touch(span: Span<'_>, probe: &Probe) -> (f64, Contact) {
     /// No disk is held back by this span.
     const NEVER: (f64, Contact) = (f64::INFINITY, Contact::Inside);
     let [v0, v1] = span.vertices;
@@ -127,7 +127,7 @@ fn tangent(span: &Span<'_>, probe: &Probe) -> Option<f64> {
 }
 
 /// Where a disk touches a site, held between two feet of it.
-pub(super) fn foot_of(site: &Site, center: Point, from: &Foot, to: &Foot) -> Foot {
+pub(crate) fn foot_of(site: &Site, center: Point, from: &Foot, to: &Foot) -> Foot {
     let (distance, normal) = site.carrier_distance(center);
     if site.is_vertex {
         // The cone turns right from `from` to `to`.

@@ -7,7 +7,7 @@ use crate::geom::Vector;
 
 /// A piece as a rational quadratic curve, which is stable for any radius; for a reflex vertex, its
 /// normals.
-pub(super) struct Track<'a> {
+pub(crate) struct Track<'a> {
     pub piece: &'a Piece,
     curvature: f64,
     is_vertex: bool,

@@ -6,6 +6,7 @@ use super::frame::Frame;
 use super::graph::Graph;
 use super::kinds::Kinds;
 use super::lamination::{Lamination, UnitDisk};
+use super::radii::Radii;
 use super::shot::shoot_all;
 use super::site::{NONE, Site};
 use super::sites::Sites;
@@ -14,6 +15,7 @@ use crate::boundary::Pocket;
 use crate::error::Error;
 use crate::geom::{Point, Vector};
 use serde::{Deserialize, Serialize};
+use std::sync::OnceLock;
 
 /// The medial axis transform of a pocket.
 #[derive(Clone, Debug)]
@@ -24,6 +26,7 @@ pub struct Mat {
     pub(crate) graph: Graph,
     pub(super) kinds: Kinds,
     pub(super) islands: usize,
+    radii: OnceLock<Radii>,
 }
 
 /// Counts that `--timings` reports.
@@ -131,7 +134,12 @@ impl Mat {
         graph.contract();
         graph.split_at_extrema(&all.sites);
         let kinds = Kinds::of(&graph);
-        Mat { frame, sites: all.sites, bvh, graph, kinds, islands }
+        Mat { frame, sites: all.sites, bvh, graph, kinds, islands, radii: OnceLock::new() }
+    }
+
+    /// The index by radius, made when the first level asks for it.
+    pub(crate) fn radii(&self) -> &Radii {
+        self.radii.get_or_init(|| Radii::of(&self.graph, &self.kinds))
     }
 
     /// The vertices, in job units.
