@@ -18,6 +18,9 @@ use std::f64::consts::PI;
 /// Most places looked at along one pushed element.
 const EFFORT: usize = 128;
 
+/// A stretch whose middle lies on a loop, as did that of those it is part of, is halved this often.
+const COVERED_HALVINGS: u32 = 4;
+
 /// A stretch shorter than this share of its element is not halved.
 const SHARE: f64 = 1.0 / 16384.0;
 
@@ -69,8 +72,8 @@ fn along(judge: &Judge, e: &Element) -> (usize, Option<Point>) {
     let length = e.length();
     let shortest = (SHARE * length).max(RESOLUTION * judge.within);
     let mut places = 0;
-    let mut stretches = VecDeque::from([(0.0, 1.0)]);
-    while let Some((from, to)) = stretches.pop_front() {
+    let mut stretches = VecDeque::from([(0.0, 1.0, 0)]);
+    while let Some((from, to, halvings)) = stretches.pop_front() {
         if places >= EFFORT || !length.is_finite() {
             break;
         }
@@ -82,17 +85,19 @@ fn along(judge: &Judge, e: &Element) -> (usize, Option<Point>) {
         if short_by - judge.within > 0.5 * width {
             continue;
         }
-        if short_by <= judge.within {
+        let on_level = short_by <= judge.within;
+        if on_level {
             if is_missing(judge, e, middle) {
                 return (places, Some(at));
             }
-            if is_covered(judge, e, [from, middle, to]) {
+            if halvings >= COVERED_HALVINGS || is_covered(judge, e, [from, middle, to]) {
                 continue;
             }
         }
         if width > shortest {
-            stretches.push_back((from, middle));
-            stretches.push_back((middle, to));
+            let halvings = if on_level { halvings + 1 } else { 0 };
+            stretches.push_back((from, middle, halvings));
+            stretches.push_back((middle, to, halvings));
         }
     }
     (places, None)
