@@ -1,1 +1,4 @@
-//! To come.
+//! Drawings in, programs and pictures out. Formats only: no geometry is decided here.
+
+pub mod atomic;
+pub mod gcode;
