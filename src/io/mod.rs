@@ -2,3 +2,5 @@
 
 pub mod atomic;
 pub mod gcode;
+pub mod json;
+pub mod svg;

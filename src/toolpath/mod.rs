@@ -2,4 +2,4 @@
 
 mod moves;
 
-pub use moves::{Move, Point3, Program};
+pub use moves::{Move, Point3};

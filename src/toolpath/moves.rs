@@ -1,70 +1,84 @@
-//! Motions of the tool.
+//! What the machine is told to do, one motion at a time.
 
 use crate::geom::{Point, point};
-use crate::tolerance::Units;
 use serde::{Deserialize, Serialize};
 
-/// A place in space, in job units.
+/// A place of the tool's tip, in job units. Written as `[x, y, z]`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(from = "[f64; 3]", into = "[f64; 3]")]
 pub struct Point3 {
     /// To the right.
     pub x: f64,
-    /// Up on the drawing.
+    /// Up in the drawing.
     pub y: f64,
-    /// Up along the spindle.
+    /// Away from the table.
     pub z: f64,
 }
 
-impl Point3 {
-    /// The place in the plane of the drawing.
-    pub fn xy(self) -> Point {
-        point(self.x, self.y)
-    }
-}
-
-/// One motion of the tool. It begins where the one before it ended.
+/// One motion of the tool. Rates are job units per minute.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "lowercase")]
 pub enum Move {
-    /// As fast as the machine can, above the stock (G0).
+    /// As fast as the machine can, through air.
     Rapid {
         /// Where it ends.
         to: Point3,
     },
-    /// Straight, with a feed rate (G1).
+    /// A straight cut.
     Feed {
         /// Where it ends.
         to: Point3,
-        /// Job units per minute.
+        /// Feed rate.
         rate: f64,
     },
-    /// Along an arc in the xy plane, never more than half a circle (G2, G3). A change of z makes
-    /// it a helix.
+    /// A circular cut in the plane of the drawing; a helix where z changes. Never more than a half
+    /// circle.
     Arc {
         /// Where it ends.
         to: Point3,
-        /// Center of the arc.
+        /// Center of the circle.
         center: Point,
         /// Whether it turns counter-clockwise.
         ccw: bool,
-        /// Job units per minute.
+        /// Feed rate.
         rate: f64,
     },
 }
 
+impl Point3 {
+    /// A place of the drawing at a height.
+    pub const fn new(p: Point, z: f64) -> Point3 {
+        Point3 { x: p.x, y: p.y, z }
+    }
+
+    /// The place in the drawing.
+    pub const fn xy(self) -> Point {
+        point(self.x, self.y)
+    }
+
+    /// Distance to another place.
+    pub fn distance(self, other: Point3) -> f64 {
+        (self.xy() - other.xy()).length().hypot(self.z - other.z)
+    }
+}
+
 impl Move {
-    /// Where it ends.
-    pub fn to(&self) -> Point3 {
+    /// Where the motion ends.
+    pub const fn to(&self) -> Point3 {
         match self {
             Move::Rapid { to } | Move::Feed { to, .. } | Move::Arc { to, .. } => *to,
         }
     }
 }
 
-/// A finished tool path.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Program {
-    /// In order.
-    pub moves: Vec<Move>,
-    /// Unit of all lengths.
-    pub units: Units,
+impl From<[f64; 3]> for Point3 {
+    fn from([x, y, z]: [f64; 3]) -> Point3 {
+        Point3 { x, y, z }
+    }
+}
+
+impl From<Point3> for [f64; 3] {
+    fn from(p: Point3) -> [f64; 3] {
+        [p.x, p.y, p.z]
+    }
 }

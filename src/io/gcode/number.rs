@@ -32,7 +32,7 @@ impl Grid {
 
     /// The nearest number that can be written, in steps of the last decimal.
     pub fn round(&self, name: &'static str, value: f64) -> Result<i64, Error> {
-        if !(value.abs() <= MAX_COORDINATE) {
+        if !(-MAX_COORDINATE..=MAX_COORDINATE).contains(&value) {
             return Err(Error::Parameter { name, value, range: "a number from -1e8 to 1e8" });
         }
         Ok(self.steps(value).round() as i64)

@@ -98,7 +98,7 @@ impl Setup {
         if !(self.tolerance > 0.0 && self.tolerance.is_finite()) {
             return refuse("tolerance", self.tolerance, "above 0");
         }
-        if !(self.clearance > 0.0) {
+        if !(self.clearance > 0.0 && self.clearance.is_finite()) {
             return refuse("clearance", self.clearance, "above 0");
         }
         // Rounded to whole turns, it must not be 0.
