@@ -26,3 +26,25 @@ impl Default for Tolerance {
         Tolerance::MM
     }
 }
+
+/// The unit of every length of a job.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Units {
+    /// Millimeters.
+    #[default]
+    #[serde(rename = "mm")]
+    Mm,
+    /// Inches.
+    #[serde(rename = "in")]
+    Inch,
+}
+
+impl Units {
+    /// The default tolerances of a job in this unit.
+    pub fn tolerance(self) -> Tolerance {
+        match self {
+            Units::Mm => Tolerance::MM,
+            Units::Inch => Tolerance::INCH,
+        }
+    }
+}

@@ -1,1 +1,5 @@
-//! To come.
+//! Motions of the tool.
+
+mod moves;
+
+pub use moves::{Move, Point3};

@@ -1,0 +1,161 @@
+use super::*;
+use crate::geom::point;
+use std::f64::consts::PI;
+
+fn rectangle(x0: f64, y0: f64, x1: f64, y1: f64) -> ArcSpline {
+    ArcSpline::closed([(x0, y0, 0.0), (x1, y0, 0.0), (x1, y1, 0.0), (x0, y1, 0.0)])
+}
+
+fn slot(length: f64, radius: f64) -> ArcSpline {
+    ArcSpline::closed([
+        (0.0, -radius, 0.0),
+        (length, -radius, 1.0),
+        (length, radius, 0.0),
+        (0.0, radius, 1.0),
+    ])
+}
+
+/// A square with an island, and its level at 1: a frame with rounded inner corners.
+fn frame() -> ([ArcSpline; 2], [ArcSpline; 2]) {
+    let b = (PI / 8.0).tan();
+    let island = rectangle(4.0, 4.0, 6.0, 6.0).reversed();
+    let round = ArcSpline::closed([
+        (4.0, 3.0, 0.0),
+        (6.0, 3.0, b),
+        (7.0, 4.0, 0.0),
+        (7.0, 6.0, b),
+        (6.0, 7.0, 0.0),
+        (4.0, 7.0, b),
+        (3.0, 6.0, 0.0),
+        (3.0, 4.0, b),
+    ]);
+    ([rectangle(0.0, 0.0, 10.0, 10.0), island], [rectangle(1.0, 1.0, 9.0, 9.0), round.reversed()])
+}
+
+fn kinds(report: &LevelReport) -> Vec<FaultKind> {
+    report.faults.iter().map(|f| f.kind).collect()
+}
+
+#[test]
+fn right_offsets_pass() {
+    let (boundary, offsets) = frame();
+    let report = level(&boundary, 1.0, &offsets);
+    assert!(report.is_right(), "{report:?}");
+    assert!((report.area - (64.0 - 16.0 + 4.0 - PI)).abs() < 1e-12 && report.max_deviation < 1e-14);
+    let report = level([&slot(10.0, 3.0)], 2.0, &[slot(10.0, 1.0)]);
+    assert!(report.is_right(), "{report:?}");
+    let (a, b) = (ArcSpline::circle(point(2.0, 1.0), 5.0), ArcSpline::circle(point(2.0, 1.0), 1.0));
+    let offsets =
+        [ArcSpline::circle(point(2.0, 1.0), 4.5), ArcSpline::circle(point(2.0, 1.0), 1.5).reversed()];
+    assert!(level([&a, &b.reversed()], 0.5, &offsets).is_right());
+}
+
+#[test]
+fn right_offsets_pass_at_any_size_place_and_turn() {
+    let (boundary, offsets) = frame();
+    let (s, c) = 37f64.to_radians().sin_cos();
+    for (scale, shift) in [(1e-3, 0.0), (1e3, 0.0), (1.0, 1e6), (1e-3, 1.0)] {
+        let map = |p: Point| point(shift + scale * (c * p.x - s * p.y), -shift + scale * (s * p.x + c * p.y));
+        let boundary = boundary.clone().map(|l| l.mapped(false, map));
+        let offsets = offsets.clone().map(|l| l.mapped(false, map));
+        let report = level(&boundary, scale, &offsets);
+        assert!(report.is_right(), "{scale} {shift} {report:?}");
+        assert!(!level(&boundary, scale, &offsets[..1]).is_right());
+    }
+}
+
+#[test]
+fn a_slot_as_wide_as_twice_the_distance_has_a_ridge() {
+    let ridge = ArcSpline::open([(0.0, 0.0, 0.0), (10.0, 0.0, 0.0)]);
+    assert!(level([&slot(10.0, 3.0)], 3.0, &[ridge]).is_right());
+    assert!(level([&slot(10.0, 3.0)], 3.0, &[]).is_right());
+    let side = ArcSpline::open([(0.0, 1.0, 0.0), (10.0, 1.0, 0.0)]);
+    let report = level([&slot(10.0, 3.0)], 2.0, &[side, slot(10.0, 1.0)]);
+    assert_eq!(kinds(&report), [FaultKind::Open]);
+}
+
+#[test]
+fn a_wrong_radius_is_caught_where_it_bulges_most() {
+    let (boundary, mut offsets) = frame();
+    offsets[1].vertices[2].bulge *= 1.1;
+    let report = level(&boundary, 1.0, &offsets);
+    let fault = report.faults[0];
+    assert_eq!(fault.kind, FaultKind::Distance);
+    assert!(report.max_deviation > 0.01 && fault.at.distance(point(4.0, 6.0)) > 0.9, "{report:?}");
+}
+
+#[test]
+fn a_dropped_loop_is_missing() {
+    let (boundary, offsets) = frame();
+    let report = level(&boundary, 1.0, &offsets[..1]);
+    assert!(kinds(&report).iter().all(|k| *k == FaultKind::Missing) && report.fault_count == 8);
+    let at = report.faults[0].at;
+    assert!((offsets[1].distance(at)) < 1e-12);
+    assert!(!level(&boundary, 1.0, &[]).is_right());
+}
+
+#[test]
+fn a_small_dropped_loop_far_along_a_wall_is_found() {
+    // Walls that lean by 0.0005: the largest disk, 1.0095 wide, touches the right end.
+    let wedge = ArcSpline::closed([(0.0, 0.0, 0.0), (20.0, -0.01, 0.0), (20.0, 2.01, 0.0), (0.0, 2.0, 0.0)]);
+    assert!(!level([&wedge], 1.009, &[]).is_right());
+    assert!(level([&wedge], 1.01, &[]).is_right());
+}
+
+#[test]
+fn a_shifted_loop_is_off_by_the_shift() {
+    let (boundary, offsets) = frame();
+    let shifted = offsets.map(|l| l.mapped(false, |p| point(p.x + 0.01, p.y)));
+    let report = level(&boundary, 1.0, &shifted);
+    assert!((report.max_deviation - 0.01).abs() < 1e-12);
+    assert!(Boundary::new(&boundary).judge(1.0, &shifted, 0.02).is_right());
+}
+
+#[test]
+fn an_extra_loop_is_a_phantom_with_its_place() {
+    let (boundary, offsets) = frame();
+    let phantom = ArcSpline::circle(point(1.5, 1.5), 0.1);
+    let [a, b] = offsets;
+    let report = level(&boundary, 1.0, &[a.clone(), b.clone(), phantom]);
+    assert_eq!(kinds(&report), [FaultKind::Distance]);
+    assert!(report.faults[0].at.distance(point(1.5, 1.5)) < 0.11);
+    let report = level(&boundary, 1.0, &[a.clone(), b, a]);
+    assert_eq!(kinds(&report), [FaultKind::Overlapping; 3]);
+}
+
+#[test]
+fn a_reversed_loop_and_one_outside_are_caught() {
+    let (boundary, [a, b]) = frame();
+    assert_eq!(kinds(&level(&boundary, 1.0, &[a.clone(), b.reversed()])), [FaultKind::Reversed]);
+    let outside = ArcSpline::circle(point(5.0, 0.0), 3.0);
+    let around = [ArcSpline::circle(point(5.0, 0.0), 4.0)];
+    assert!(kinds(&level([&outside], 1.0, &around)).contains(&FaultKind::Outside));
+    // The island's loop alone, as if it were a pocket, has an outside only.
+    assert!(!level([&boundary[1]], 1.0, &[a, b]).is_right());
+}
+
+#[test]
+fn bad_numbers_are_faults() {
+    let (boundary, [a, mut b]) = frame();
+    b.vertices[3].bulge = f64::NAN;
+    assert_eq!(kinds(&level(&boundary, 1.0, &[a, b]))[0], FaultKind::NotANumber);
+    assert!(level(&[], 1.0, &[]).is_right());
+    assert!(!level(&[], 1.0, &frame().1).is_right());
+    level(&boundary, f64::NAN, &frame().1);
+    level(&boundary, f64::INFINITY, &frame().1);
+}
+
+#[test]
+fn a_hundred_thousand_elements_are_judged() {
+    let n = 100_000;
+    let polygon = |r: f64| {
+        ArcSpline::closed((0..n).map(|i| {
+            let (s, c) = (f64::from(i) * std::f64::consts::TAU / f64::from(n)).sin_cos();
+            (r * c, r * s, 0.0)
+        }))
+    };
+    // Apothem of the inner polygon: one less than that of the outer one.
+    let cos = (PI / f64::from(n)).cos();
+    let report = level([&polygon(100.0)], 1.0, &[polygon(100.0 - 1.0 / cos)]);
+    assert!(report.is_right(), "{report:?}");
+}
