@@ -25,7 +25,16 @@ fn run(kind: &str, seeds: std::ops::Range<u64>, size: usize) -> (usize, Vec<Stri
 fn every_random_axis_passes_its_check() {
     for kind in shapes::KINDS {
         let t = std::time::Instant::now();
-        let (sites, failures) = run(kind, 1..51, 500);
-        println!("{kind}: {sites} sites, {} failures {:?} {:?}", failures.len(), t.elapsed(), &failures[..failures.len().min(4)]);
+        let (sites, failures) = run(
+            kind,
+            1..std::env::var("SEEDS").map_or(51, |s| s.parse().unwrap()),
+            std::env::var("SIZE").map_or(500, |s| s.parse().unwrap()),
+        );
+        println!(
+            "{kind}: {sites} sites, {} failures {:?} {:?}",
+            failures.len(),
+            t.elapsed(),
+            &failures[..failures.len().min(4)]
+        );
     }
 }

@@ -11,7 +11,7 @@
 //! faces have a hierarchy of boxes over the array.
 
 use super::bvh::{Bvh, SearchDisk};
-use super::graph::Graph;
+use super::graph::{DISK_ERROR, Graph};
 use super::lamination::{Piece, UnitDisk};
 use super::site::{Foot, Site};
 use super::touch::{Contact, Probe, foot_of};
@@ -134,21 +134,80 @@ impl<'a> Face<'a> {
             let probe = track.at(t);
             let radius = |p: &Piece| track.reach(self.sites, p, &probe).0;
             let reach = radius(second).min(radius(piece(third)));
-            match self.nearest_between(sub, graph, &track, &probe, reach, third) {
-                // The order of partners makes the index fall, so this ends.
-                Some(nearer) => (third, from) = (nearer, t),
-                None => {
-                    return self.branch(
-                        &track,
-                        &probe,
-                        reach,
-                        [first, second, piece(third)],
-                        third,
-                        graph,
-                        sub,
-                    );
+            // The order of partners makes the index fall, so this ends.
+            if let Some(nearer) = self.nearest_between(sub, graph, &track, &probe, reach, third) {
+                (third, from) = (nearer, t);
+                continue;
+            }
+            let branch = self.branch(&track, &probe, reach, third, graph, sub);
+            if spread(branch.feet) >= WELL_SPREAD {
+                return branch;
+            }
+            return self.best_of_ties(&track, &branch, graph, sub).unwrap_or(branch);
+        }
+    }
+
+    /// Where more pieces touch the same disk, to round-off, than the three that define it: the disk
+    /// through the one that defines it best, if it is as empty.
+    fn best_of_ties(
+        &self,
+        track: &Track<'_>,
+        branch: &Branch,
+        graph: &Graph,
+        sub: &SubFace,
+    ) -> Option<Branch> {
+        let defined = spread(branch.feet);
+        // What a disk is uncertain by when it is divided by so little.
+        let error = DISK_ERROR / defined.max(DISK_ERROR);
+        let mut best = (defined, branch.third);
+        self.near_disk(sub, branch.disk, error, |i| {
+            let other = &graph.pieces[sub.get(self.slots, i).piece as usize].piece;
+            let site = &self.sites[other.site as usize];
+            if i >= 2 && (site.carrier_distance(branch.disk.center).0 - branch.disk.radius).abs() <= error {
+                let foot = foot_of(site, branch.disk.center, &other.from, &other.to);
+                let spread = spread([branch.feet[0], branch.feet[1], foot]);
+                if spread > best.0 {
+                    best = (spread, i);
                 }
             }
+        });
+        if best.1 == branch.third {
+            return None;
+        }
+        let piece = |i: usize| &graph.pieces[sub.get(self.slots, i).piece as usize].piece;
+        let t = equal_reach(self.sites, track, piece(1), piece(best.1), 0.0);
+        let probe = track.at(t);
+        let reach = [1, best.1].map(|i| track.reach(self.sites, piece(i), &probe).0);
+        let other = self.branch(track, &probe, reach[0].min(reach[1]), best.1, graph, sub);
+        let intrusion = |b: &Branch| self.intrusion(sub, b.disk, error, graph);
+        (intrusion(&other) <= intrusion(branch)).then_some(other)
+    }
+
+    /// How far pieces of the face reach into a disk.
+    fn intrusion(&self, sub: &SubFace, disk: UnitDisk, error: f64, graph: &Graph) -> f64 {
+        let mut deepest = 0.0f64;
+        self.near_disk(sub, disk, error, |i| {
+            let Piece { site, from, to, .. } = graph.pieces[sub.get(self.slots, i).piece as usize].piece;
+            let part = Site { start: from, end: to, ..self.sites[site as usize] };
+            deepest = deepest.max(disk.radius - part.distance(disk.center));
+        });
+        deepest
+    }
+
+    /// Calls `visit` for the pieces of a sub-face that come near to a disk.
+    fn near_disk(&self, sub: &SubFace, disk: UnitDisk, margin: f64, mut visit: impl FnMut(usize)) {
+        let h = sub.heads();
+        match &self.boxes {
+            Some(boxes) if sub.range.len() > SCANNED => {
+                (0..h).for_each(&mut visit);
+                let disk = SearchDisk { center: disk.center, radius: disk.radius + margin };
+                boxes.search_range(disk, sub.range.clone(), |leaf| {
+                    visit(leaf as usize - sub.range.start + h);
+                    None
+                });
+                (h + sub.range.len()..sub.len()).for_each(&mut visit);
+            }
+            _ => (0..sub.len()).for_each(&mut visit),
         }
     }
 
@@ -194,17 +253,16 @@ impl<'a> Face<'a> {
         found
     }
 
-    #[allow(clippy::too_many_arguments)]
     fn branch(
         &self,
         track: &Track<'_>,
         probe: &Probe,
         reach: f64,
-        pieces: [&Piece; 3],
         third: usize,
         graph: &Graph,
         sub: &SubFace,
     ) -> Branch {
+        let pieces = [0, 1, third].map(|i| &graph.pieces[sub.get(self.slots, i).piece as usize].piece);
         let sites = pieces.map(|p| &self.sites[p.site as usize]);
         // Round-off may leave no partner at all where everything meets in one disk: that of the chord.
         let chord_disk = || graph.disks[sub.get(self.slots, 0).disk as usize];
@@ -220,6 +278,16 @@ impl<'a> Face<'a> {
         let feet = [0, 1, 2].map(|i| foot_of(sites[i], disk.center, &pieces[i].from, &pieces[i].to));
         Branch { disk, feet, third }
     }
+}
+
+/// Three normals that span a triangle of this area or more define a disk but for two bits.
+const WELL_SPREAD: f64 = 0.25;
+
+/// Twice the area of the triangle of the normals of a disk at three feet: what its center and radius
+/// are divided by when they are computed from the three sites.
+fn spread(feet: [Foot; 3]) -> f64 {
+    let [n0, n1, n2] = feet.map(|f| f.normal);
+    (n1 - n0).cross(n2 - n0).abs()
 }
 
 /// Steps of the search for a place of equal reach: twice the bits of a parameter.

@@ -154,7 +154,11 @@ impl Graph {
         for id in 0..self.edges.len() {
             let edge = self.edges[id];
             let [a, b] = edge.pieces.map(|p| self.pieces[p as usize].piece);
-            let growth = [b.to.normal.cross(a.from.normal), b.from.normal.cross(a.to.normal)];
+            let mut growth = [b.to.normal.cross(a.from.normal), b.from.normal.cross(a.to.normal)];
+            // From a corner the radius can only grow, however flat its cusp.
+            let radii = edge.disks.map(|d| self.disks[d as usize].radius);
+            growth[0] = if radii[0] == 0.0 { 1.0 } else { growth[0] };
+            growth[1] = if radii[1] == 0.0 { -1.0 } else { growth[1] };
             if growth[0] * growth[1] < 0.0 && growth.iter().all(|g| g.abs() > NORMAL_ERROR) {
                 self.split_at_extremum(sites, id, growth[0] < 0.0);
             }
@@ -183,7 +187,10 @@ impl Graph {
         });
         let probe = track.at(t);
         let (radius, _) = track.reach(sites, across, &probe);
-        if !radius.is_finite() {
+        let ends = edge.disks.map(|d| self.disks[d as usize].radius);
+        let beyond = if minimum { ends[0].min(ends[1]) - radius } else { radius - ends[0].max(ends[1]) };
+        // Where the radius is as good as constant, round-off makes extrema that are none.
+        if !(beyond > DISK_ERROR && radius.is_finite()) {
             return;
         }
         let disk = UnitDisk { center: probe.center(radius), radius };

@@ -81,9 +81,13 @@ impl Tracer<'_> {
         let edge = &self.mat.graph.edges[way.edge as usize];
         let piece = &self.mat.graph.pieces[edge.pieces[usize::from(way.backward)] as usize].piece;
         let site = &self.mat.sites[piece.site as usize];
-        let straight = site.curvature == 0.0 && !site.is_vertex;
-        let turn = if straight { 0.0 } else { piece.from.normal.angle_to(piece.to.normal) };
-        let point = self.mat.frame.leave(self.mat.graph.disks[at as usize].center);
-        Vertex { point, bulge: (0.25 * turn).tan() }
+        let [here, there] = [at, way.to].map(|v| self.mat.graph.disks[v as usize].center);
+        let turn = piece.from.normal.angle_to(piece.to.normal);
+        let radius = if site.is_vertex { self.d } else { (site.curvature.recip() - self.d).abs() };
+        let arc_chord = (2.0 * radius * (0.5 * turn).sin()).abs();
+        // Edges as short as round-off may have any normals; only what is an arc is made one.
+        let is_arc = (arc_chord - here.distance(there)).abs() <= 0.5 * arc_chord;
+        let bulge = if is_arc && radius.is_finite() { (0.25 * turn).tan() } else { 0.0 };
+        Vertex { point: self.mat.frame.leave(here), bulge }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::geom::Point;
 use crate::mat::{
-    BoundaryPiece, DISK_ERROR, Foot, GraphEdge, Mat, NONE, Piece, Site, Track, falling_root, foot_of,
+    BoundaryPiece, DISK_ERROR, Foot, GraphEdge, Mat, NONE, Piece, Site, Track, falling_root,
 };
 
 /// A stretch of the boundary whose offset is part of the level set, within one site.
@@ -106,14 +106,14 @@ impl<'a> Tracer<'a> {
             done.insert(edge);
             let piece = self.piece(entering).piece;
             let center = self.crossing(edge);
-            let foot = foot_of(self.site(&piece), center, &piece.from, &piece.to);
+            let foot = self.foot_below(&piece, center);
             self.add(&mut walk, piece.site, foot, piece.to, Some(center));
             let mut at = self.piece(entering).next;
             // Along the boundary until the level crosses an edge again, going out.
             loop {
                 let BoundaryPiece { piece, next, edge } = *self.piece(at);
                 if edge != NONE && self.entering(edge).is_some() {
-                    let foot = foot_of(self.site(&piece), self.crossing(edge), &piece.from, &piece.to);
+                    let foot = self.foot_below(&piece, self.crossing(edge));
                     self.add(&mut walk, piece.site, piece.from, foot, None);
                     let pieces = self.edge(edge).pieces;
                     entering = if pieces[0] == at { pieces[1] } else { pieces[0] };
@@ -126,6 +126,13 @@ impl<'a> Tracer<'a> {
                 return walk;
             }
         }
+    }
+
+    /// Foot of a crossing on the carrier of a piece: where a neck is flat, the crossing may lie beyond
+    /// the piece by the root of round-off, and its normal must be the one it really has.
+    fn foot_below(&self, piece: &Piece, crossing: Point) -> Foot {
+        let (distance, normal) = self.site(piece).carrier_distance(crossing);
+        Foot { point: crossing - normal * distance, normal }
     }
 
     fn site(&self, piece: &Piece) -> &Site {

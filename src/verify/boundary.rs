@@ -93,7 +93,8 @@ impl Boundary {
         if !p.is_finite() {
             return None;
         }
-        let site = self.tree.nearest_neighbor(&[p.x, p.y])?;
+        // Not `nearest_neighbor`: its pruning by min-max distances was seen to lose the nearest arc.
+        let site = self.tree.nearest_neighbor_iter(&[p.x, p.y]).next()?;
         let nearest = site.element.nearest(p);
         Some(Hit { nearest, loop_index: site.loop_index, element: site.element, element_index: site.index })
     }

@@ -22,9 +22,9 @@ use rayon::prelude::*;
 /// takes a few thousand roundings at worst from the boundary to its loops, each at most `eps / 2`.
 const ROUND_OFF: f64 = 4096.0 * f64::EPSILON;
 
-/// Share of the largest coordinate by which the judge steps aside of a loop: far above the
-/// round-off of a distance, `4096 eps`, and far below anything drawn.
-const ASIDE: f64 = 1.0 / (1u64 << 28) as f64;
+/// Share of the largest coordinate by which the judge steps aside of a loop: sixteen times the
+/// round-off of a distance, so that growing and falling can be told apart.
+const ASIDE: f64 = 16.0 * ROUND_OFF;
 
 /// Parameters at which every element is looked at; the ends belong to its neighbors as well.
 const PLACES: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
@@ -141,9 +141,16 @@ impl Judge<'_> {
             add(FaultKind::Reversed, f.beside, report);
             return;
         }
-        let n = widest.normal_at(0.5) * self.aside;
-        if (self.offsets.winding(at + n), self.offsets.winding(at - n)) != (1, 0) {
-            add(FaultKind::Overlapping, at, report);
+        // Beside a pinch narrower than a step aside nothing can be told; look elsewhere then.
+        let clear = |f: &Finding| f.grows > 0.5 && f.falls < -0.5;
+        let places = spline.elements().zip(findings).filter(|(_, f)| clear(f));
+        let place =
+            places.max_by(|a, b| a.0.chord().length_squared().total_cmp(&b.0.chord().length_squared()));
+        if let Some((e, _)) = place {
+            let (at, n) = (e.midpoint(), e.normal_at(0.5) * self.aside);
+            if (self.offsets.winding(at + n), self.offsets.winding(at - n)) != (1, 0) {
+                add(FaultKind::Overlapping, at, report);
+            }
         }
     }
 
