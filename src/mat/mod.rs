@@ -1,139 +1,47 @@
-//! Medial axis transform of a pocket.
+//! Medial axis transform of a [`Pocket`]: the centers of all maximal disks, with their radii.
+//!
+//! **Needs** a pocket of segments and arcs as [`Pocket`] describes it.
+//! **Guarantees** a connected graph with one cycle per island; both footpoints of every disk, and
+//! nothing of the boundary inside it, to round-off of the size ([`Mat::check`] measures it); a
+//! radius that is monotone along every edge; the same bytes for any number of threads.
+//! **Does not** prune: a small bump in the drawing is a small branch here.
+//!
+//! **Method**, the *contact lamination*: maximal disks at all joints of the boundary, one more for
+//! each hole (`sites`, `shot`); their chords cut the pocket into faces (`lamination`); a face
+//! of two pieces is an edge, larger ones are divided by branch disks (`face`); edges without length
+//! are contracted and the others split where the radius has an extremum (`graph`).
+//!
+//! After Aichholzer, Aigner, Aurenhammer, Hackl, Juettler, Rabl: *Medial axis computation for planar
+//! free-form shapes*, Computer-Aided Design 41 (2009), whose recursion it unrolls.
+//!
+//! [`Pocket`]: crate::Pocket
 
-use crate::boundary::Pocket;
-use crate::error::Error;
-use crate::geom::{Element, Point};
-use serde::{Deserialize, Serialize};
+mod bvh;
+mod check;
+mod conic;
+mod face;
+mod frame;
+mod graph;
+mod kinds;
+mod lamination;
+mod query;
+mod radii;
+mod shot;
+mod site;
+mod sites;
+mod splice;
+mod touch;
+mod track;
+mod transform;
+mod vertex;
 
-/// The medial axis transform of a pocket.
-#[derive(Clone, Debug)]
-pub struct Mat {}
+pub use check::Residuals;
+pub use transform::{Counts, Mat, Mismatch};
+pub use vertex::{AxisEdge, AxisVertex, Disk, Kind, SiteKind, SiteRef};
 
-/// A disk of the transform.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Disk {
-    /// Its center, a point of the axis.
-    pub center: Point,
-    /// Its radius: the distance of the center to the boundary.
-    pub radius: f64,
-}
-
-/// What an axis vertex is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Kind {
-    /// Degree 1.
-    Leaf,
-    /// Degree 2, where one site gives way to the next.
-    Joint,
-    /// Degree 3 or more.
-    Branch,
-    /// Degree 2, an interior minimum of the radius.
-    Neck,
-    /// An interior maximum of the radius.
-    Peak,
-}
-
-/// Which boundary element an axis edge is nearest to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct SiteRef {
-    /// Index of the loop in [`Pocket::loops`].
-    #[serde(rename = "loop")]
-    pub loop_index: u32,
-    /// Index of the element; of the vertex for a reflex vertex.
-    pub element: u32,
-    /// What it is.
-    pub kind: SiteKind,
-}
-
-/// What a site is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum SiteKind {
-    /// A straight element.
-    Segment,
-    /// A circular arc.
-    Arc,
-    /// A reflex vertex.
-    Vertex,
-}
-
-/// A vertex of the axis.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct AxisVertex {
-    /// Its maximal disk.
-    pub disk: Disk,
-    /// What it is.
-    pub kind: Kind,
-}
-
-/// An edge of the axis: one conic arc along which the radius is monotone.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct AxisEdge {
-    /// Index of the vertex where it begins.
-    pub from: u32,
-    /// Index of the vertex where it ends.
-    pub to: u32,
-    /// The sites on its left and right.
-    pub sites: [SiteRef; 2],
-    /// Control points of the rational quadratic Bezier curve with end weights 1.
-    pub points: [Point; 3],
-    /// Middle weight.
-    pub weight: f64,
-}
-
-/// Counts that `--timings` reports.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Counts {
-    /// Boundary elements, reflex vertices included.
-    pub sites: usize,
-    /// Axis vertices.
-    pub vertices: usize,
-    /// Axis edges.
-    pub edges: usize,
-}
-
-impl Pocket {
-    /// The medial axis transform.
-    pub fn medial_axis(&self) -> Result<Mat, Error> {
-        unimplemented!("mat")
-    }
-}
-
-impl Mat {
-    /// The vertices, in job units.
-    pub fn vertices(&self) -> Vec<AxisVertex> {
-        unimplemented!("mat")
-    }
-
-    /// The edges, in job units.
-    pub fn edges(&self) -> Vec<AxisEdge> {
-        unimplemented!("mat")
-    }
-
-    /// How much there is of everything.
-    pub fn counts(&self) -> Counts {
-        unimplemented!("mat")
-    }
-
-    /// A largest disk in the pocket.
-    pub fn largest_disk(&self) -> Disk {
-        unimplemented!("mat")
-    }
-
-    /// The narrowest neck: the vertex with the smallest radius among interior minima.
-    pub fn narrowest_neck(&self) -> Option<Disk> {
-        unimplemented!("mat")
-    }
-
-    /// Whether a disk of this radius can be moved along the path without leaving the pocket by
-    /// more than round-off.
-    pub fn is_clear(&self, _path: &Element, _radius: f64) -> bool {
-        unimplemented!("mat")
-    }
-
-    /// Area that a disk of this radius cannot reach.
-    pub fn unreachable_area(&self, _radius: f64) -> f64 {
-        unimplemented!("mat")
-    }
-}
+pub(crate) use face::falling_root;
+pub(crate) use graph::{BoundaryPiece, DISK_ERROR, GraphEdge};
+pub(crate) use lamination::Piece;
+pub(crate) use site::{Foot, NONE, Site};
+pub(crate) use touch::foot_of;
+pub(crate) use track::Track;

@@ -1,0 +1,305 @@
+//! Branch disks inside a face of the lamination.
+//!
+//! A face is a closed row of pieces; between a piece and the next lies a chord, one disk that both
+//! end in. One piece: the contact arc of a leaf. Two pieces: one edge of the axis. Three and more:
+//! walk along the first piece; the partner of its tangent disk changes from the last piece (at its
+//! start) to the second (at its end), in descending order of the row because disks do not cross. The
+//! last change is a branch disk. It touches the first piece, the second and one more; it cuts off an
+//! edge between the first two and leaves two smaller faces.
+//!
+//! A face is one array and its sub-faces are ranges of it with new ends, so nothing is copied; large
+//! faces have a hierarchy of boxes over the array.
+
+use super::bvh::{Bvh, SearchDisk};
+use super::graph::Graph;
+use super::lamination::{Piece, UnitDisk};
+use super::site::{Foot, Site};
+use super::touch::{Contact, Probe, foot_of};
+use super::track::Track;
+use crate::geom::{Bounds, Vector};
+
+/// A piece of a face and the disk at its end.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Slot {
+    pub piece: u32,
+    pub disk: u32,
+}
+
+/// Faces up to this many pieces are scanned; a hierarchy costs more to build and ask.
+const SCANNED: usize = 32;
+
+/// A sub-face: up to two new pieces, a range of the face, and a new last piece.
+struct SubFace {
+    head: [Option<Slot>; 2],
+    range: std::ops::Range<usize>,
+    tail: Option<Slot>,
+}
+
+/// A face being solved.
+pub(super) struct Face<'a> {
+    sites: &'a [Site],
+    slots: &'a [Slot],
+    boxes: Option<Bvh>,
+}
+
+impl SubFace {
+    fn heads(&self) -> usize {
+        self.head.iter().flatten().count()
+    }
+
+    fn len(&self) -> usize {
+        self.heads() + self.range.len() + usize::from(self.tail.is_some())
+    }
+
+    fn get(&self, slots: &[Slot], i: usize) -> Slot {
+        let h = self.heads();
+        if let (true, Some(slot)) = (i < h, self.head.get(i).copied().flatten()) {
+            return slot;
+        }
+        match self.tail {
+            Some(tail) if i - h >= self.range.len() => tail,
+            _ => slots[self.range.start + i - h],
+        }
+    }
+}
+
+/// A disk that touches the first piece, the second, and the one at `third`.
+struct Branch {
+    disk: UnitDisk,
+    feet: [Foot; 3],
+    third: usize,
+}
+
+impl<'a> Face<'a> {
+    /// Makes all edges of a face, adding branch disks and cutting pieces in `graph`.
+    pub fn solve(sites: &'a [Site], slots: &'a [Slot], graph: &mut Graph) {
+        let boxes = (slots.len() > SCANNED).then(|| {
+            Bvh::build(slots.iter().map(|s| piece_bounds(sites, &graph.pieces[s.piece as usize].piece)))
+        });
+        let face = Face { sites, slots, boxes };
+        let mut open = vec![SubFace { head: [None; 2], range: 0..slots.len(), tail: None }];
+        while let Some(sub) = open.pop() {
+            match sub.len() {
+                0 | 1 => {}
+                2 => {
+                    let (a, b) = (sub.get(slots, 0), sub.get(slots, 1));
+                    graph.add_edge([a.piece, b.piece], [b.disk, a.disk]);
+                }
+                _ => face.divide(&sub, graph, &mut open),
+            }
+        }
+    }
+
+    /// Cuts a face of three or more pieces at the branch disk nearest to the end of its first piece.
+    fn divide(&self, sub: &SubFace, graph: &mut Graph, open: &mut Vec<SubFace>) {
+        let branch = self.last_branch(sub, graph);
+        let (first, second, third) =
+            (sub.get(self.slots, 0), sub.get(self.slots, 1), sub.get(self.slots, branch.third));
+        let disk = graph.add_disk(branch.disk);
+        let first_rest = graph.cut(self.sites, first.piece, branch.feet[0]);
+        let second_rest = graph.cut(self.sites, second.piece, branch.feet[1]);
+        let third_rest = graph.cut(self.sites, third.piece, branch.feet[2]);
+        graph.add_edge([first_rest, second.piece], [disk, first.disk]);
+
+        let (j, h, len) = (branch.third, sub.heads(), sub.len());
+        let slot_index = |i: usize| sub.range.start + i.saturating_sub(h);
+        // Between second and third.
+        let inner_end = slot_index(j).min(sub.range.end);
+        open.push(SubFace {
+            head: [Some(Slot { piece: second_rest, disk: second.disk }), None],
+            range: slot_index(2).min(inner_end)..inner_end,
+            tail: Some(Slot { piece: third.piece, disk }),
+        });
+        // From third around to the first.
+        let is_last = j + 1 == len;
+        let outer_start = slot_index(j + 1).min(sub.range.end);
+        open.push(SubFace {
+            head: [
+                Some(Slot { piece: first.piece, disk }),
+                Some(Slot { piece: third_rest, disk: third.disk }),
+            ],
+            range: if is_last { 0..0 } else { outer_start..sub.range.end },
+            tail: sub.tail.filter(|_| !is_last),
+        });
+    }
+
+    /// The branch disk where the partner of the first piece changes to the second for good.
+    fn last_branch(&self, sub: &SubFace, graph: &Graph) -> Branch {
+        let piece = |i: usize| &graph.pieces[sub.get(self.slots, i).piece as usize].piece;
+        let (first, second) = (piece(0), piece(1));
+        let track = Track::of(self.sites, first);
+        let (mut third, mut from) = (sub.len() - 1, 0.0);
+        loop {
+            let t = equal_reach(self.sites, &track, second, piece(third), from);
+            let probe = track.at(t);
+            let radius = |p: &Piece| track.reach(self.sites, p, &probe).0;
+            let reach = radius(second).min(radius(piece(third)));
+            match self.nearest_between(sub, graph, &track, &probe, reach, third) {
+                // The order of partners makes the index fall, so this ends.
+                Some(nearer) => (third, from) = (nearer, t),
+                None => {
+                    return self.branch(
+                        &track,
+                        &probe,
+                        reach,
+                        [first, second, piece(third)],
+                        third,
+                        graph,
+                        sub,
+                    );
+                }
+            }
+        }
+    }
+
+    /// The piece after the second and before `third` that the disk at the probe would meet first.
+    fn nearest_between(
+        &self,
+        sub: &SubFace,
+        graph: &Graph,
+        track: &Track<'_>,
+        probe: &Probe,
+        reach: f64,
+        third: usize,
+    ) -> Option<usize> {
+        let (mut best, mut found) = (reach, None);
+        let mut try_index = |i: usize| {
+            let other = &graph.pieces[sub.get(self.slots, i).piece as usize].piece;
+            let (radius, _) = track.reach(self.sites, other, probe);
+            if radius < best {
+                (best, found) = (radius, Some(i));
+            }
+            best
+        };
+        let h = sub.heads();
+        let in_range = h.max(2)..third.min(h + sub.range.len());
+        match &self.boxes {
+            Some(boxes) if in_range.len() > SCANNED => {
+                (2..third.min(h)).for_each(|i| _ = try_index(i));
+                let shift = sub.range.start as isize - h as isize;
+                let slot = |i: usize| (i as isize + shift) as usize;
+                let mut radius = reach.min(1.0);
+                let disk = |radius: f64| SearchDisk { center: probe.center(radius), radius };
+                boxes.search_range(disk(radius), slot(in_range.start)..slot(in_range.end), |leaf| {
+                    let now = try_index((leaf as isize - shift) as usize);
+                    (now < radius).then(|| {
+                        radius = now;
+                        disk(radius)
+                    })
+                });
+                (in_range.end.max(2)..third).for_each(|i| _ = try_index(i));
+            }
+            _ => (2..third).for_each(|i| _ = try_index(i)),
+        }
+        found
+    }
+
+    #[allow(clippy::too_many_arguments)]
+    fn branch(
+        &self,
+        track: &Track<'_>,
+        probe: &Probe,
+        reach: f64,
+        pieces: [&Piece; 3],
+        third: usize,
+        graph: &Graph,
+        sub: &SubFace,
+    ) -> Branch {
+        let sites = pieces.map(|p| &self.sites[p.site as usize]);
+        // Round-off may leave no partner at all where everything meets in one disk: that of the chord.
+        let chord_disk = || graph.disks[sub.get(self.slots, 0).disk as usize];
+        let mut disk = if reach.is_finite() {
+            UnitDisk { center: probe.center(reach), radius: reach }
+        } else {
+            chord_disk()
+        };
+        let tangent = |p: &Piece| track.reach(self.sites, p, probe).1 == Contact::Inside;
+        if tangent(pieces[1]) && tangent(pieces[2]) {
+            disk = polished(sites, disk);
+        }
+        let feet = [0, 1, 2].map(|i| foot_of(sites[i], disk.center, &pieces[i].from, &pieces[i].to));
+        Branch { disk, feet, third }
+    }
+}
+
+/// Steps of the search for a place of equal reach: twice the bits of a parameter.
+const STEPS: usize = 106;
+
+/// Parameter beyond `from` where the disks to both pieces are equal: at `from` the one to `before` is
+/// smaller, at the end the one to `after`. Regula falsi (Illinois) with bisection.
+fn equal_reach(sites: &[Site], track: &Track<'_>, after: &Piece, before: &Piece, from: f64) -> f64 {
+    let difference = |t: f64| {
+        let probe = track.at(t);
+        let (a, b) = (track.reach(sites, after, &probe).0, track.reach(sites, before, &probe).0);
+        match (a.is_finite(), b.is_finite()) {
+            (true, true) => (a - b) / (a + b),
+            (true, false) => -1.0,
+            (false, _) => 1.0,
+        }
+    };
+    falling_root(from, 1.0, difference)
+}
+
+/// Where a function falls through zero between two places; it need not be continuous.
+pub(crate) fn falling_root(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
+    let (mut at_low, mut at_high, mut side) = (1.0, -1.0, 0);
+    for step in 0..STEPS {
+        if high - low <= f64::EPSILON * high {
+            break;
+        }
+        let secant = (low * at_high - high * at_low) / (at_high - at_low);
+        let bisect = step < 2 || step % 4 == 3 || !(secant > low && secant < high);
+        let t = if bisect { 0.5 * (low + high) } else { secant };
+        let value = f(t);
+        if value.abs() <= f64::EPSILON {
+            return t;
+        }
+        if value > 0.0 {
+            (low, at_low) = (t, value);
+            if side == 1 {
+                at_high *= 0.5;
+            }
+            side = 1;
+        } else {
+            (high, at_high) = (t, value);
+            if side == -1 {
+                at_low *= 0.5;
+            }
+            side = -1;
+        }
+    }
+    0.5 * (low + high)
+}
+
+/// Newton's step for the disk tangent to three carriers: `distance_i(c) = r`, gradients are normals.
+/// Taken only while it makes the residual smaller.
+fn polished(sites: [&Site; 3], mut disk: UnitDisk) -> UnitDisk {
+    let residuals =
+        |d: &UnitDisk| sites.map(|s| s.carrier_distance(d.center)).map(|(s, n)| (d.radius - s, n));
+    let worst = |r: &[(f64, Vector); 3]| r.iter().fold(0.0f64, |w, (e, _)| w.max(e.abs()));
+    let mut now = residuals(&disk);
+    while worst(&now) > f64::EPSILON * disk.radius {
+        let [(e0, n0), (e1, n1), (e2, n2)] = now;
+        // n_i . step - dr = e_i; differences leave two equations in the step.
+        let (a, b) = (n1 - n0, n2 - n0);
+        let det = a.cross(b);
+        let step = Vector {
+            x: ((e1 - e0) * b.y - (e2 - e0) * a.y) / det,
+            y: ((e2 - e0) * a.x - (e1 - e0) * b.x) / det,
+        };
+        let next = UnitDisk { center: disk.center + step, radius: disk.radius + n0.dot(step) - e0 };
+        let after = residuals(&next);
+        // A step that does not halve the residual has met round-off; NaN fails this too.
+        if !(worst(&after) < 0.5 * worst(&now) && next.radius > 0.0) {
+            break;
+        }
+        (disk, now) = (next, after);
+    }
+    disk
+}
+
+/// A box around a piece.
+fn piece_bounds(sites: &[Site], piece: &Piece) -> Bounds {
+    let site = &sites[piece.site as usize];
+    Site { start: piece.from, end: piece.to, ..*site }.bounds()
+}

@@ -1,0 +1,202 @@
+//! The axis as a graph under construction: disks, pieces of the boundary, and edges between them.
+
+use super::face::{Face, Slot, falling_root};
+use super::lamination::{Lamination, Piece, UnitDisk, cut_vertex};
+use super::site::{Foot, NONE, Site};
+use super::touch::foot_of;
+use super::track::Track;
+
+/// A piece with its place on the boundary and in the axis.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct BoundaryPiece {
+    pub piece: Piece,
+    /// The piece that follows on the boundary; [`NONE`] for what is no piece, the way over a link.
+    pub next: u32,
+    /// The edge on its left, [`NONE`] along the contact arc of a leaf.
+    pub edge: u32,
+}
+
+/// An edge of the axis between the pieces on its two sides.
+///
+/// `pieces[0]` runs along with the edge, `pieces[1]` against it: each starts in the disk in which
+/// the other ends.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct GraphEdge {
+    pub pieces: [u32; 2],
+    pub disks: [u32; 2],
+}
+
+/// Disks, pieces and edges; ids are indices.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Graph {
+    pub disks: Vec<UnitDisk>,
+    pub pieces: Vec<BoundaryPiece>,
+    pub edges: Vec<GraphEdge>,
+}
+
+/// Round-off of a disk: its center and radius, from four numbers up to 1 with eight roundings each.
+pub(crate) const DISK_ERROR: f64 = 32.0 * f64::EPSILON;
+
+impl Graph {
+    /// The graph of a lamination: all faces solved.
+    pub(super) fn of(sites: &[Site], map: Lamination) -> Graph {
+        let follow = map.boundary_order(map.item_count(sites));
+        let mut graph = Graph { disks: map.disks.clone(), ..Graph::default() };
+        let before = |i: u32, row: &std::ops::Range<u32>| if i == row.start { row.end - 1 } else { i - 1 };
+        for row in &map.rows {
+            for i in row.clone() {
+                let piece = map.piece(sites, i, before(i, row));
+                let next = if map.visits[i as usize].crossed { NONE } else { follow[i as usize] };
+                graph.pieces.push(BoundaryPiece { piece, next, edge: NONE });
+            }
+        }
+        graph.solve_faces(sites, &map);
+        graph
+    }
+
+    fn solve_faces(&mut self, sites: &[Site], map: &Lamination) {
+        let mut seen = vec![false; map.visits.len()];
+        let mut slots = Vec::new();
+        for row in &map.rows {
+            for first in row.clone() {
+                slots.clear();
+                let mut at = first;
+                while !seen[at as usize] {
+                    seen[at as usize] = true;
+                    let visit = &map.visits[at as usize];
+                    if !visit.crossed {
+                        slots.push(Slot { piece: at, disk: visit.disk });
+                    }
+                    at = if visit.partner + 1 == row.end { row.start } else { visit.partner + 1 };
+                }
+                Face::solve(sites, &slots, self);
+            }
+        }
+    }
+
+    pub(super) fn add_disk(&mut self, disk: UnitDisk) -> u32 {
+        self.disks.push(disk);
+        self.disks.len() as u32 - 1
+    }
+
+    pub(super) fn add_edge(&mut self, pieces: [u32; 2], disks: [u32; 2]) {
+        let id = self.edges.len() as u32;
+        for p in pieces {
+            self.pieces[p as usize].edge = id;
+        }
+        self.edges.push(GraphEdge { pieces, disks });
+    }
+
+    /// Cuts a piece at a foot; the id stays with the first part, that of the rest is returned.
+    pub(super) fn cut(&mut self, sites: &[Site], id: u32, foot: Foot) -> u32 {
+        let rest_id = self.pieces.len() as u32;
+        let cut = &mut self.pieces[id as usize];
+        let vertex = cut_vertex(&sites[cut.piece.site as usize]);
+        let mut rest = *cut;
+        cut.piece.to = foot;
+        cut.piece.vertices[1] = vertex;
+        cut.next = rest_id;
+        rest.piece.from = foot;
+        rest.piece.vertices[0] = vertex;
+        self.pieces.push(rest);
+        rest_id
+    }
+
+    /// Unites the ends of edges without length and drops these edges.
+    ///
+    /// Ties leave such edges between disks that differ by round-off only. Edges are contracted one
+    /// by one while their ends are different vertices, so V - E stays what it is.
+    pub(super) fn contract(&mut self) {
+        let mut root: Vec<u32> = (0..self.disks.len() as u32).collect();
+        fn find(root: &mut [u32], mut i: u32) -> u32 {
+            while root[i as usize] != i {
+                root[i as usize] = root[root[i as usize] as usize];
+                i = root[i as usize];
+            }
+            i
+        }
+        let mut kept = Vec::with_capacity(self.edges.len());
+        for edge in std::mem::take(&mut self.edges) {
+            let [a, b] = edge.disks.map(|d| find(&mut root, d));
+            let (da, db) = (&self.disks[a as usize], &self.disks[b as usize]);
+            let apart = da.center.distance(db.center) + (da.radius - db.radius).abs();
+            if a != b && apart <= DISK_ERROR {
+                // The older disk stays: it comes from a joint, not from an intersection.
+                root[a.max(b) as usize] = a.min(b);
+            } else {
+                kept.push(edge);
+            }
+        }
+        let mut number = vec![NONE; self.disks.len()];
+        let mut disks = Vec::with_capacity(self.disks.len());
+        for i in 0..self.disks.len() as u32 {
+            let r = find(&mut root, i) as usize;
+            if number[r] == NONE {
+                number[r] = disks.len() as u32;
+                disks.push(self.disks[r]);
+            }
+            number[i as usize] = number[r];
+        }
+        self.disks = disks;
+        for piece in &mut self.pieces {
+            piece.edge = NONE;
+        }
+        for edge in kept {
+            self.add_edge(edge.pieces, edge.disks.map(|d| number[d as usize]));
+        }
+    }
+
+    /// Splits edges where the radius has an extremum inside, so that it is monotone along each.
+    ///
+    /// Along an edge the radius grows as `n_b x n_a`, with the normals at the two feet; a bisector of
+    /// two carriers has at most one place where they are opposite.
+    pub(super) fn split_at_extrema(&mut self, sites: &[Site]) {
+        for id in 0..self.edges.len() {
+            let edge = self.edges[id];
+            let [a, b] = edge.pieces.map(|p| self.pieces[p as usize].piece);
+            let growth = [b.to.normal.cross(a.from.normal), b.from.normal.cross(a.to.normal)];
+            if growth[0] * growth[1] < 0.0 && growth.iter().all(|g| g.abs() > NORMAL_ERROR) {
+                self.split_at_extremum(sites, id, growth[0] < 0.0);
+            }
+        }
+    }
+
+    fn split_at_extremum(&mut self, sites: &[Site], id: usize, minimum: bool) {
+        let edge = self.edges[id];
+        let [a, b] = edge.pieces.map(|p| self.pieces[p as usize].piece);
+        // The longer piece is the better ruler.
+        let extent = |p: &Piece| p.from.point.distance(p.to.point);
+        let swap = extent(&b) > extent(&a);
+        let (along, across) = if swap { (&b, &a) } else { (&a, &b) };
+        let track = Track::of(sites, along);
+        let (here, there) = (&sites[along.site as usize], &sites[across.site as usize]);
+
+        let sign = if minimum { -1.0 } else { 1.0 };
+        let t = falling_root(0.0, 1.0, |t| {
+            let probe = track.at(t);
+            let (radius, _) = track.reach(sites, across, &probe);
+            if !radius.is_finite() {
+                return 0.0;
+            }
+            let opposite = foot_of(there, probe.center(radius), &across.from, &across.to);
+            sign * opposite.normal.cross(probe.normal)
+        });
+        let probe = track.at(t);
+        let (radius, _) = track.reach(sites, across, &probe);
+        if !radius.is_finite() {
+            return;
+        }
+        let disk = UnitDisk { center: probe.center(radius), radius };
+        let feet = [(here, along), (there, across)].map(|(s, p)| foot_of(s, disk.center, &p.from, &p.to));
+        let middle = self.add_disk(disk);
+        let [foot_a, foot_b] = if swap { [feet[1], feet[0]] } else { feet };
+        let rest_a = self.cut(sites, edge.pieces[0], foot_a);
+        let rest_b = self.cut(sites, edge.pieces[1], foot_b);
+        self.edges[id] = GraphEdge { pieces: [edge.pieces[0], rest_b], disks: [edge.disks[0], middle] };
+        self.pieces[rest_b as usize].edge = id as u32;
+        self.add_edge([rest_a, edge.pieces[1]], [middle, edge.disks[1]]);
+    }
+}
+
+/// Round-off of the sine between two unit normals of four roundings each.
+const NORMAL_ERROR: f64 = 8.0 * f64::EPSILON;

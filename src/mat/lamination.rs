@@ -1,0 +1,424 @@
+//! The contact lamination: maximal disks at all joints cut the pocket into faces.
+//!
+//! Every joint disk is a chord from the joint to its contact. One chord per hole, at its extreme
+//! place, is a *link*: the boundary is walked as if the pocket were cut open along the links, and so
+//! becomes one closed row of *visits* for each component. All other chords connect visits of that row.
+//!
+//! Chords of different maximal disks never cross, so chords that do cross in the row belong to one
+//! disk with more than two contacts, whose ties round-off has broken: they are united. That is the
+//! non-crossing closure of the partition of visits into chords, found with one stack in linear time,
+//! and no tolerance decides it. The result is a planar map by construction: its faces are simply
+//! connected, every piece of the boundary lies in exactly one of them, and V - E = 1 - holes holds
+//! for whatever is built in the faces. What round-off can still spoil are residuals, and those
+//! `Mat::check` measures.
+//!
+//! Source: the division by maximal disks of Aichholzer et al., *Medial axis computation for planar
+//! free-form shapes* (CAD 41, 2009), section 3, with all disks chosen up front.
+
+use super::shot::Shot;
+use super::site::{Foot, Joint, NONE, Site};
+use super::sites::Sites;
+use super::touch::{Contact, foot_of};
+use crate::geom::Point;
+
+/// A disk in the unit frame.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct UnitDisk {
+    pub center: Point,
+    pub radius: f64,
+}
+
+/// Where a joint disk touches a site.
+#[derive(Clone, Copy, Debug)]
+struct ContactItem {
+    site: u32,
+    position: f64,
+    foot: Foot,
+    joint: u32,
+}
+
+/// A stop on the walk around the cut pocket: a joint or a contact, and the piece that ends there.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Visit {
+    /// Joint (below the number of sites) or contact.
+    item: u32,
+    /// Whether the walk came here across a link, and no piece ends here.
+    pub crossed: bool,
+    /// The visit before in the same disk, counted along the row: over there a face goes on.
+    pub partner: u32,
+    /// The disk, an index into [`Lamination::disks`].
+    pub disk: u32,
+}
+
+/// The planar map of pieces and chords.
+pub(super) struct Lamination {
+    pub visits: Vec<Visit>,
+    /// Rows of visits, one for each connected component of the cut pocket.
+    pub rows: Vec<std::ops::Range<u32>>,
+    pub disks: Vec<UnitDisk>,
+    contacts: Vec<ContactItem>,
+    /// Greatest distance of disks that were united, and the center of one of the two.
+    pub widest_union: (f64, Point),
+}
+
+/// A part of one site between two visits.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Piece {
+    pub site: u32,
+    pub from: Foot,
+    pub to: Foot,
+    /// Vertices of the boundary at its ends, where it reaches an end of its site.
+    pub vertices: [u32; 2],
+}
+
+impl Lamination {
+    /// The map of the shots; `None` when the links do not reach every ring.
+    pub fn of(all: &Sites, shots: &[Shot]) -> Option<Lamination> {
+        let contacts = contacts(&all.sites, shots);
+        let order = Order::of(&all.sites, &contacts);
+        let (visits, rows) = walk(all, &order, &contacts)?;
+        let disks = Vec::new();
+        let mut map = Lamination { visits, rows, disks, contacts, widest_union: (0.0, Point::default()) };
+        map.close(all, shots);
+        Some(map)
+    }
+}
+
+fn joint_of(contacts: &[ContactItem], item: u32, sites: u32) -> u32 {
+    if item < sites { item } else { contacts[(item - sites) as usize].joint }
+}
+
+/// The contacts of all joint disks.
+fn contacts(sites: &[Site], shots: &[Shot]) -> Vec<ContactItem> {
+    let mut out = Vec::with_capacity(sites.len());
+    for (joint, shot) in (0u32..).zip(shots) {
+        if shot.site == NONE {
+            continue;
+        }
+        if shot.contact == Contact::Whole {
+            out.extend(whole_arc_contacts(sites, joint, shot));
+            continue;
+        }
+        let end = &sites[joint as usize].end;
+        let center = end.point + end.normal * shot.radius;
+        out.push(contact_at(sites, joint, shot, center));
+    }
+    out
+}
+
+/// A disk that osculates an arc touches it at the far end too: that end is its contact. At a joint
+/// of two parts of one arc it touches both parts.
+fn whole_arc_contacts(sites: &[Site], joint: u32, shot: &Shot) -> impl Iterator<Item = ContactItem> {
+    let before = &sites[joint as usize];
+    let both = before.joint == Joint::Smooth { same_circle: true };
+    let far_start = (both || shot.site == joint).then_some(ContactItem {
+        site: joint,
+        position: 0.0,
+        foot: before.start,
+        joint,
+    });
+    let after = &sites[before.next as usize];
+    let far_end = (both || shot.site != joint).then_some(ContactItem {
+        site: before.next,
+        position: 1.0,
+        foot: after.end,
+        joint,
+    });
+    far_start.into_iter().chain(far_end)
+}
+
+/// The contact of a disk with the site that its shot names, or with the reflex vertex there.
+fn contact_at(sites: &[Site], joint: u32, shot: &Shot, center: Point) -> ContactItem {
+    let mut id = shot.site;
+    let mut site = &sites[id as usize];
+    match shot.contact {
+        Contact::Start if sites[site.prev as usize].is_vertex => id = site.prev,
+        Contact::End if sites[site.next as usize].is_vertex => id = site.next,
+        Contact::Start => return ContactItem { site: id, position: 0.0, foot: site.start, joint },
+        Contact::End => return ContactItem { site: id, position: 1.0, foot: site.end, joint },
+        Contact::Inside | Contact::Whole => {}
+    }
+    site = &sites[id as usize];
+    if site.is_vertex {
+        id = part_of_cone(sites, id, center);
+        site = &sites[id as usize];
+    }
+    let foot = foot_of(site, center, &site.start, &site.end);
+    ContactItem { site: id, position: site.position(&foot), foot, joint }
+}
+
+/// The part of a reflex vertex's cone that holds the normal to a center.
+fn part_of_cone(sites: &[Site], mut id: u32, center: Point) -> u32 {
+    let w = center - sites[id as usize].start.point;
+    while sites[sites[id as usize].prev as usize].is_vertex && sites[id as usize].start.normal.cross(w) > 0.0
+    {
+        id = sites[id as usize].prev;
+    }
+    while sites[sites[id as usize].next as usize].is_vertex && w.cross(sites[id as usize].end.normal) > 0.0 {
+        id = sites[id as usize].next;
+    }
+    id
+}
+
+/// All items in boundary order: the contacts of each site by position, then the joint at its end.
+struct Order {
+    items: Vec<u32>,
+    place: Vec<u32>,
+    /// Where the items of a site begin.
+    first: Vec<u32>,
+}
+
+impl Order {
+    fn of(sites: &[Site], contacts: &[ContactItem]) -> Order {
+        let n = sites.len();
+        let mut first = vec![0u32; n + 1];
+        for c in contacts {
+            first[c.site as usize + 1] += 1;
+        }
+        for s in 0..n {
+            first[s + 1] += first[s] + 1;
+        }
+        let mut items = vec![NONE; n + contacts.len()];
+        let mut free = first.clone();
+        for (i, c) in contacts.iter().enumerate() {
+            items[free[c.site as usize] as usize] = (n + i) as u32;
+            free[c.site as usize] += 1;
+        }
+        let contact = |item: &u32| &contacts[*item as usize - n];
+        for s in 0..n {
+            let end = first[s + 1] as usize - 1;
+            items[end] = s as u32;
+            let run = &mut items[first[s] as usize..end];
+            if run.len() > 1 {
+                // Chords do not cross: of contacts in one place, the one of the later joint is first.
+                run.sort_unstable_by(|a, b| {
+                    let (a, b) = (contact(a), contact(b));
+                    a.position.total_cmp(&b.position).then(b.joint.cmp(&a.joint))
+                });
+            }
+        }
+        let mut place = vec![0; items.len()];
+        for (at, &item) in items.iter().enumerate() {
+            place[item as usize] = at as u32;
+        }
+        Order { items, place, first }
+    }
+
+    /// Where the boundary goes on after an item.
+    fn after(&self, item: u32, sites: &[Site]) -> u32 {
+        match sites.get(item as usize) {
+            Some(joint) => self.first[joint.next as usize],
+            None => self.place[item as usize] + 1,
+        }
+    }
+}
+
+type Rows = (Vec<Visit>, Vec<std::ops::Range<u32>>);
+
+/// Walks around every component of the pocket cut open along the links.
+fn walk(all: &Sites, order: &Order, contacts: &[ContactItem]) -> Option<Rows> {
+    let n = all.sites.len() as u32;
+    let links: Vec<u32> = all.rings.iter().filter_map(|r| r.link).collect();
+    let mut mate = std::collections::HashMap::with_capacity(2 * links.len());
+    // Contacts stand in the order of their joints.
+    for &joint in &links {
+        let at = contacts.partition_point(|c| c.joint < joint);
+        contacts.get(at).filter(|c| c.joint == joint)?;
+        mate.insert(joint, n + at as u32);
+        mate.insert(n + at as u32, joint);
+    }
+    let total = order.items.len() + 2 * links.len();
+    let mut visits = Vec::with_capacity(total);
+    let mut rows = Vec::new();
+    let visit = |item, crossed| Visit { item, crossed, partner: NONE, disk: NONE };
+    for ring in all.rings.iter().filter(|r| r.link.is_none()) {
+        let start = order.first[ring.sites.start as usize];
+        let (begin, mut at) = (visits.len() as u32, start);
+        loop {
+            let mut item = order.items[at as usize];
+            visits.push(visit(item, false));
+            if let Some(&over) = mate.get(&item) {
+                let (here, there) = (visits.len() as u32 - 1, visits.len() as u32);
+                visits.push(visit(over, true));
+                visits[here as usize].partner = there;
+                visits[there as usize].partner = here;
+                item = over;
+            }
+            at = order.after(item, &all.sites);
+            if at == start {
+                break;
+            }
+            if visits.len() > total {
+                return None;
+            }
+        }
+        rows.push(begin..visits.len() as u32);
+    }
+    (visits.len() == total).then_some((visits, rows))
+}
+
+/// Disks as sets of chords.
+struct Blocks {
+    parent: Vec<u32>,
+    /// Visits of the block that the walk has not met.
+    ahead: Vec<u32>,
+    open: Vec<bool>,
+    /// The joint whose disk stands for the block: the smallest, as it is the emptiest.
+    joint: Vec<u32>,
+}
+
+impl Blocks {
+    fn root(&mut self, mut b: u32) -> u32 {
+        while self.parent[b as usize] != b {
+            let up = self.parent[self.parent[b as usize] as usize];
+            self.parent[b as usize] = up;
+            b = up;
+        }
+        b
+    }
+}
+
+impl Lamination {
+    /// Unites crossing chords, and makes disks and partners of what results.
+    fn close(&mut self, all: &Sites, shots: &[Shot]) {
+        let n = all.sites.len() as u32;
+        let disk_at = |joint: u32| {
+            let (end, radius) = (&all.sites[joint as usize].end, shots[joint as usize].radius);
+            UnitDisk { center: end.point + end.normal * radius, radius }
+        };
+        let mut blocks = Blocks {
+            parent: (0..n).collect(),
+            ahead: vec![0; n as usize],
+            open: vec![false; n as usize],
+            joint: (0..n).collect(),
+        };
+        let joints: Vec<u32> = self.visits.iter().map(|v| joint_of(&self.contacts, v.item, n)).collect();
+        for (v, &joint) in self.visits.iter().zip(&joints) {
+            blocks.ahead[joint as usize] += u32::from(v.partner == NONE);
+        }
+        for row in self.rows.clone() {
+            let mut stack: Vec<u32> = Vec::new();
+            for i in row.clone() {
+                if self.visits[i as usize].partner != NONE {
+                    continue;
+                }
+                let mut block = blocks.root(joints[i as usize]);
+                if !blocks.open[block as usize] {
+                    blocks.open[block as usize] = true;
+                    stack.push(block);
+                }
+                while let Some(&top) = stack.last() {
+                    if top == block {
+                        break;
+                    }
+                    stack.pop();
+                    self.note_union(
+                        disk_at(blocks.joint[top as usize]),
+                        disk_at(blocks.joint[block as usize]),
+                    );
+                    unite(&mut blocks, top, block, shots);
+                    block = blocks.root(block);
+                }
+                blocks.ahead[block as usize] -= 1;
+                if blocks.ahead[block as usize] == 0 {
+                    stack.pop();
+                }
+            }
+        }
+        self.number_disks(all, &joints, &mut blocks, disk_at);
+    }
+
+    fn note_union(&mut self, a: UnitDisk, b: UnitDisk) {
+        let apart = a.center.distance(b.center) + (a.radius - b.radius).abs();
+        if apart > self.widest_union.0 {
+            self.widest_union = (apart, a.center);
+        }
+    }
+
+    /// Gives every block its disk and links its visits to rings.
+    fn number_disks(
+        &mut self,
+        all: &Sites,
+        joints: &[u32],
+        blocks: &mut Blocks,
+        disk_at: impl Fn(u32) -> UnitDisk,
+    ) {
+        let mut number = vec![NONE; joints.len().max(all.sites.len())];
+        let mut last = vec![NONE; all.sites.len()];
+        let mut first = vec![NONE; all.sites.len()];
+        for i in 0..self.visits.len() {
+            let root = blocks.root(joints[i]);
+            let key = all.touching.get(&root).copied().unwrap_or(root) as usize;
+            if number[key] == NONE {
+                number[key] = self.disks.len() as u32;
+                self.disks.push(disk_at(blocks.joint[root as usize]));
+            }
+            self.visits[i].disk = number[key];
+            if self.visits[i].partner != NONE {
+                continue;
+            }
+            let root = root as usize;
+            self.visits[i].partner = last[root];
+            last[root] = i as u32;
+            if first[root] == NONE {
+                first[root] = i as u32;
+            }
+        }
+        for (f, l) in first.into_iter().zip(last).filter(|(f, _)| *f != NONE) {
+            self.visits[f as usize].partner = l;
+        }
+    }
+
+    /// The piece that ends at a visit.
+    pub fn piece(&self, sites: &[Site], visit: u32, before: u32) -> Piece {
+        let n = sites.len() as u32;
+        let (item, item_before) = (self.visits[visit as usize].item, self.visits[before as usize].item);
+        let site = if item < n { item } else { self.contacts[(item - n) as usize].site };
+        let s = &sites[site as usize];
+        let (from, v0) = match item_before.checked_sub(n) {
+            None => (s.start, s.vertices[0]),
+            Some(c) => (self.contacts[c as usize].foot, cut_vertex(s)),
+        };
+        let (to, v1) = match item.checked_sub(n) {
+            None => (s.end, s.vertices[1]),
+            Some(c) => (self.contacts[c as usize].foot, cut_vertex(s)),
+        };
+        Piece { site, from, to, vertices: [v0, v1] }
+    }
+
+    /// For every non-crossed visit, the visit whose piece follows on the boundary.
+    pub fn boundary_order(&self, item_count: usize) -> Vec<u32> {
+        // A piece leaves an item at the visit after which the row goes on along the boundary: the
+        // last of the item's visits that is not followed by a crossing.
+        let mut leaves = vec![NONE; item_count];
+        for row in &self.rows {
+            for i in row.clone() {
+                let after = if i + 1 == row.end { row.start } else { i + 1 };
+                if !self.visits[after as usize].crossed {
+                    leaves[self.visits[i as usize].item as usize] = after;
+                }
+            }
+        }
+        self.visits.iter().map(|v| leaves[v.item as usize]).collect()
+    }
+
+    /// Number of joints and contacts.
+    pub fn item_count(&self, sites: &[Site]) -> usize {
+        sites.len() + self.contacts.len()
+    }
+}
+
+/// Vertex of the boundary where a site is cut: a cone is cut at its vertex, other sites at none.
+pub(super) fn cut_vertex(site: &Site) -> u32 {
+    if site.is_vertex { site.vertices[0] } else { NONE }
+}
+
+/// Unites two blocks; `into` stays a root.
+fn unite(blocks: &mut Blocks, block: u32, into: u32, shots: &[Shot]) {
+    blocks.parent[block as usize] = into;
+    blocks.ahead[into as usize] += blocks.ahead[block as usize];
+    let (a, b) = (blocks.joint[block as usize], blocks.joint[into as usize]);
+    if shots[a as usize].radius < shots[b as usize].radius {
+        blocks.joint[into as usize] = a;
+    }
+}

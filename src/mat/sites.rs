@@ -1,0 +1,248 @@
+//! From the loops of a pocket to its sites.
+//!
+//! Arcs are split so that none sweeps more than a quarter turn, reflex vertices get their normal
+//! cones, and every hole gets a joint at its extreme place in one direction: the maximal disk there
+//! lies beyond the hole and links it to a component that reaches farther in that direction, so that
+//! these links form a tree (design after Aichholzer et al., SoCG 2009, with a shot for their sweep).
+
+use super::frame::Frame;
+use super::site::{Foot, Joint, NONE, Site};
+use super::splice::{Drawn, TANGENT_ROUNDINGS, place_key, splice};
+use super::{SiteKind, SiteRef};
+use crate::boundary::Pocket;
+use crate::geom::{Element, Point, Vector};
+use std::collections::HashMap;
+use std::f64::consts::FRAC_PI_2;
+use std::ops::Range;
+
+/// A closed row of sites.
+#[derive(Clone, Debug)]
+pub(crate) struct Ring {
+    pub sites: Range<u32>,
+    /// For a hole, the joint whose disk links it to the rest; `None` for an outer ring.
+    pub link: Option<u32>,
+}
+
+/// All sites of a pocket.
+#[derive(Clone, Debug)]
+pub(crate) struct Sites {
+    pub sites: Vec<Site>,
+    pub rings: Vec<Ring>,
+    /// For every convex joint at a place where loops touch: the first such joint there.
+    pub touching: HashMap<u32, u32>,
+}
+
+/// Sweeps up to a quarter turn and this fraction of one more stay whole: a drawn quarter may be
+/// longer by round-off, and all that is needed is a sweep below a half turn.
+const QUARTER_SLACK: f64 = 0.01;
+
+impl Sites {
+    /// The sites in the unit frame, holes with a joint at their extreme place in `direction`.
+    pub fn of(pocket: &Pocket, frame: &Frame, direction: Vector) -> Sites {
+        let mut all = Sites { sites: Vec::new(), rings: Vec::new(), touching: HashMap::new() };
+        for row in splice(pocket.loops(), frame) {
+            let area: f64 = row.iter().map(|d| d.element.area(row[0].element.start)).sum();
+            let mut parts: Vec<Part> = row.iter().flat_map(quarter_parts).collect();
+            let hole = area < 0.0;
+            if hole {
+                split_at_extreme(&mut parts, direction);
+            }
+            all.add_ring(&parts, frame.noise, hole.then_some(direction));
+        }
+        all.find_touching();
+        all
+    }
+
+    fn add_ring(&mut self, parts: &[Part], noise: f64, direction: Option<Vector>) {
+        let first = self.sites.len() as u32;
+        for (i, part) in parts.iter().enumerate() {
+            let after = &parts[(i + 1) % parts.len()];
+            let joint = joint_between(part, after, noise);
+            self.push(part.start, part.end, part.curvature, false, joint, part.source);
+            if joint == Joint::Cone {
+                self.add_cone(part.end, after, direction);
+            }
+        }
+        self.connect(first);
+        let sites = first..self.sites.len() as u32;
+        let link = direction.and_then(|u| self.extreme_joint(sites.clone(), u));
+        self.rings.push(Ring { sites, link });
+    }
+
+    /// The normal cone of the reflex vertex where `after` begins, in parts of a quarter at most and
+    /// split at `direction` if that lies inside.
+    fn add_cone(&mut self, before: Foot, after: &Part, direction: Option<Vector>) {
+        let (n0, n1) = (before.normal, after.start.normal);
+        let mut normals = vec![n0];
+        let angle = n0.angle_to(n1);
+        // A cusp may turn by half a turn and a rounding more.
+        let angle = if angle > 0.0 { -std::f64::consts::PI } else { angle };
+        let count = (-angle / FRAC_PI_2 - QUARTER_SLACK).ceil().max(1.0) as usize;
+        for i in 1..count {
+            let (sin, cos) = (angle * i as f64 / count as f64).sin_cos();
+            normals.push(n0.rotated(cos, sin));
+        }
+        normals.push(n1);
+        if let Some(u) = direction {
+            let inside =
+                |w: &[Vector]| w[0].cross(u) < 0.0 && u.cross(w[1]) < 0.0 && u.dot(w[0] + w[1]) > 0.0;
+            if let Some(i) = normals.windows(2).position(inside) {
+                normals.insert(i + 1, u);
+            }
+        }
+        let source = SiteRef { kind: SiteKind::Vertex, ..after.source };
+        for w in normals.windows(2) {
+            let foot = |normal| Foot { point: after.start.point, normal };
+            self.push(foot(w[0]), foot(w[1]), 0.0, true, Joint::Cone, source);
+        }
+    }
+
+    fn push(
+        &mut self,
+        start: Foot,
+        end: Foot,
+        curvature: f64,
+        is_vertex: bool,
+        joint: Joint,
+        source: SiteRef,
+    ) {
+        let (prev, next) = (NONE, NONE);
+        let vertices = [NONE; 2];
+        self.sites.push(Site { start, end, curvature, is_vertex, joint, prev, next, vertices, source });
+    }
+
+    /// Neighbors and vertex ids of the ring that begins at `first` and ends with the last site.
+    /// A vertex has the number of the first site that ends in it.
+    fn connect(&mut self, first: u32) {
+        let end = self.sites.len() as u32;
+        for i in first..end {
+            let site = &mut self.sites[i as usize];
+            site.prev = if i == first { end - 1 } else { i - 1 };
+            site.next = if i + 1 == end { first } else { i + 1 };
+        }
+        for i in first..end {
+            let prev = self.sites[i as usize].prev;
+            let begins =
+                if i == first { self.last_vertex(first, end) } else { self.sites[prev as usize].vertices[1] };
+            let site = &mut self.sites[i as usize];
+            site.vertices = [begins, if site.is_vertex { begins } else { i }];
+        }
+    }
+
+    /// Vertex where the last site of a ring ends: the end of its last element.
+    fn last_vertex(&self, first: u32, end: u32) -> u32 {
+        (first..end).rev().find(|&i| !self.sites[i as usize].is_vertex).unwrap_or(first)
+    }
+
+    /// The joint of a hole whose normal is (nearest to) the direction at the farthest place.
+    fn extreme_joint(&self, sites: Range<u32>, direction: Vector) -> Option<u32> {
+        let reach = |i: u32| self.sites[i as usize].end.point.to_vector().dot(direction);
+        let along = |i: u32| self.sites[i as usize].end.normal.dot(direction);
+        let free = sites.filter(|&i| self.sites[i as usize].joint != Joint::Convex);
+        free.max_by(|&a, &b| {
+            reach(a).total_cmp(&reach(b)).then(along(a).total_cmp(&along(b))).then(b.cmp(&a))
+        })
+    }
+
+    /// Convex joints of different sectors at one place.
+    fn find_touching(&mut self) {
+        let convex = |i: &u32| self.sites[*i as usize].joint == Joint::Convex;
+        let key = |i: &u32| place_key(self.sites[*i as usize].end.point);
+        let mut order: Vec<u32> = (0..self.sites.len() as u32).filter(convex).collect();
+        order.sort_unstable_by_key(|i| (key(i), *i));
+        for group in order.chunk_by(|a, b| key(a) == key(b)).filter(|g| g.len() > 1) {
+            self.touching.extend(group.iter().map(|&i| (i, group[0])));
+        }
+    }
+}
+
+/// An element, or a part of one, on its way to be a site.
+#[derive(Clone, Copy, Debug)]
+struct Part {
+    start: Foot,
+    end: Foot,
+    curvature: f64,
+    source: SiteRef,
+    /// Length of the chord of the element it is a part of, for the round-off of its normals.
+    chord: f64,
+    /// Whether it is the last part of its element.
+    last: bool,
+}
+
+/// The element in parts that sweep a quarter at most; parts share places and normals.
+fn quarter_parts(drawn: &Drawn) -> Vec<Part> {
+    let e = &drawn.element;
+    let kind = if e.is_segment() { SiteKind::Segment } else { SiteKind::Arc };
+    let source = SiteRef { loop_index: drawn.loop_index, element: drawn.index, kind };
+    let count = (e.sweep().abs() / FRAC_PI_2 - QUARTER_SLACK).ceil().max(1.0) as usize;
+    let (n0, n1) = e.normals();
+    let foot = |i: usize| {
+        let t = i as f64 / count as f64;
+        let normal = if i == 0 {
+            n0
+        } else if i == count {
+            n1
+        } else {
+            e.normal_at(t)
+        };
+        let point = if 2 * i == count { e.midpoint() } else { e.point_at(t) };
+        Foot { point, normal }
+    };
+    let part = |i: usize| Part {
+        start: foot(i),
+        end: foot(i + 1),
+        curvature: e.curvature(),
+        source,
+        chord: e.chord().length(),
+        last: i + 1 == count,
+    };
+    (0..count).map(part).collect()
+}
+
+/// Splits the arc that holds the extreme place of the hole in its inside, if one does.
+fn split_at_extreme(parts: &mut Vec<Part>, direction: Vector) {
+    let corner = |p: &Part| p.end.point.to_vector().dot(direction);
+    let farthest = parts.iter().map(corner).fold(f64::NEG_INFINITY, f64::max);
+    let extreme = |p: &Part| -> Option<Point> {
+        let inside = p.start.normal.cross(direction) < 0.0 && direction.cross(p.end.normal) < 0.0;
+        // Holes run clockwise, so only arcs that turn right reach out between their ends.
+        (p.curvature < 0.0 && inside && p.start.normal.dot(direction) > 0.0)
+            .then(|| p.start.point + (p.start.normal - direction) / p.curvature)
+    };
+    let best = (0..parts.len())
+        .filter_map(|i| Some((i, extreme(&parts[i])?)))
+        .max_by(|a, b| a.1.to_vector().dot(direction).total_cmp(&b.1.to_vector().dot(direction)));
+    if let Some((i, point)) = best.filter(|(_, p)| p.to_vector().dot(direction) > farthest) {
+        let foot = Foot { point, normal: direction };
+        let whole = parts[i];
+        parts[i] = Part { end: foot, last: false, ..whole };
+        parts.insert(i + 1, Part { start: foot, ..whole });
+    }
+}
+
+/// How the boundary goes on from one part to the next.
+fn joint_between(part: &Part, after: &Part, noise: f64) -> Joint {
+    if !part.last {
+        return Joint::Smooth { same_circle: true };
+    }
+    let (n0, n1) = (part.end.normal, after.start.normal);
+    let (turn, ahead) = (n0.cross(n1), n0.dot(n1));
+    let error = TANGENT_ROUNDINGS * noise * (1.0 + part.chord.recip() + after.chord.recip());
+    if turn.abs() > error {
+        if turn > 0.0 { Joint::Convex } else { Joint::Cone }
+    } else if ahead > 0.0 {
+        Joint::Smooth { same_circle: false }
+    } else if part.curvature + after.curvature < 0.0 {
+        // A cusp: the boundary turns back on the left of where it came, the wedge is inside.
+        Joint::Convex
+    } else {
+        Joint::Cone
+    }
+}
+
+/// A site as an element, for tests and pictures.
+#[allow(dead_code)]
+pub(crate) fn as_element(site: &Site) -> Element {
+    let half = 0.5 * (site.end.point - site.start.point).length() * site.curvature;
+    Element::arc(site.start.point, site.end.point, half / (1.0 + (1.0 - half * half).max(0.0).sqrt()))
+}

@@ -1,0 +1,150 @@
+//! Loops that touch, taken apart at the touching points.
+//!
+//! Where loops touch in a point, the interior meets the point in several sectors. Instead of going
+//! on along its own loop, the boundary is made to turn into the sector it bounds: arriving at the
+//! point, it leaves by the next element clockwise. An island that touches the wall becomes a part
+//! of the outer loop that way, two islands become one, and every sector is an ordinary corner. The
+//! touching points are known by their coordinates, equal to the last bit (see [`Pocket`]).
+//!
+//! [`Pocket`]: crate::Pocket
+
+use super::frame::Frame;
+use crate::geom::{ArcSpline, Element, Point, Vector};
+
+/// A drawn element in the unit frame.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Drawn {
+    pub element: Element,
+    pub loop_index: u32,
+    pub index: u32,
+}
+
+/// The elements of the loops, as loops that go on by sectors.
+pub(super) fn splice<'a>(loops: impl Iterator<Item = &'a ArcSpline>, frame: &Frame) -> Vec<Vec<Drawn>> {
+    let Row { elements, mut next, prev } = Row::of(loops, frame);
+    for touching in touching_vertices(&elements) {
+        turn_into_sectors(&elements, &touching, &prev, &mut next, frame.noise);
+    }
+    follow(&elements, &next)
+}
+
+/// All elements in one row, with their neighbors on their own loops.
+struct Row {
+    elements: Vec<Drawn>,
+    next: Vec<usize>,
+    prev: Vec<usize>,
+}
+
+impl Row {
+    fn of<'a>(loops: impl Iterator<Item = &'a ArcSpline>, frame: &Frame) -> Row {
+        let mut row = Row { elements: Vec::new(), next: Vec::new(), prev: Vec::new() };
+        for (loop_index, spline) in loops.enumerate() {
+            let (first, count) = (row.elements.len(), spline.len());
+            for (index, e) in spline.elements().enumerate() {
+                let element =
+                    Element { start: frame.enter(e.start), end: frame.enter(e.end), bulge: e.bulge };
+                row.elements.push(Drawn { element, loop_index: loop_index as u32, index: index as u32 });
+                row.next.push(first + (index + 1) % count);
+                row.prev.push(first + (index + count - 1) % count);
+            }
+        }
+        row
+    }
+}
+
+/// For each place where more than one element begins: those elements.
+fn touching_vertices(elements: &[Drawn]) -> Vec<Vec<usize>> {
+    let key = |i: &usize| place_key(elements[*i].element.start);
+    let mut order: Vec<usize> = (0..elements.len()).collect();
+    order.sort_unstable_by_key(|i| (key(i), *i));
+    order.chunk_by(|a, b| key(a) == key(b)).filter(|g| g.len() > 1).map(<[usize]>::to_vec).collect()
+}
+
+/// Bits of a place, the same for both zeros.
+pub(super) fn place_key(p: Point) -> [u64; 2] {
+    [(p.x + 0.0).to_bits(), (p.y + 0.0).to_bits()]
+}
+
+/// One end of an element at a touching point.
+struct Ray {
+    /// Direction away from the point and its angle.
+    direction: Vector,
+    angle: f64,
+    /// Curvature to the left, going away.
+    curvature: f64,
+    element: usize,
+    arrives: bool,
+}
+
+/// Makes every element that arrives at the touching point go on by the next one clockwise.
+fn turn_into_sectors(elements: &[Drawn], starting: &[usize], prev: &[usize], next: &mut [usize], noise: f64) {
+    let mut rays = Vec::with_capacity(2 * starting.len());
+    for &out in starting {
+        let e = &elements[out].element;
+        rays.push(ray(e.tangents().0, e.curvature(), out, false));
+        let e = &elements[prev[out]].element;
+        rays.push(ray(-e.tangents().1, -e.curvature(), prev[out], true));
+    }
+    sort_clockwise(&mut rays, |ray| {
+        let length = elements[ray.element].element.chord().length();
+        TANGENT_ROUNDINGS * noise / length
+    });
+    let n = rays.len();
+    let sectors: Vec<(usize, usize)> = (0..n)
+        .filter(|&i| rays[i].arrives && !rays[(i + 1) % n].arrives)
+        .map(|i| (rays[i].element, rays[(i + 1) % n].element))
+        .collect();
+    // Anything but an alternation of arriving and leaving would be a crossing: leave it alone then.
+    if sectors.len() == starting.len() {
+        for (arriving, leaving) in sectors {
+            next[arriving] = leaving;
+        }
+    }
+}
+
+/// Roundings in the direction of an element: two in each difference of coordinates, and those of
+/// its unit vector and its turn by half the sweep.
+pub(super) const TANGENT_ROUNDINGS: f64 = 8.0;
+
+fn ray(direction: Vector, curvature: f64, element: usize, arrives: bool) -> Ray {
+    Ray { direction, angle: direction.angle(), curvature, element, arrives }
+}
+
+/// Clockwise by direction; rays of one direction (to round-off) by curvature, the leftmost first.
+fn sort_clockwise(rays: &mut [Ray], error: impl Fn(&Ray) -> f64) {
+    rays.sort_by(|a, b| b.angle.total_cmp(&a.angle));
+    let tangent = |a: &Ray, b: &Ray| {
+        a.direction.dot(b.direction) > 0.0 && a.direction.cross(b.direction).abs() <= error(a) + error(b)
+    };
+    // Begin at a gap between directions, so that no bundle of tangent rays is cut by the turn's end.
+    let n = rays.len();
+    if let Some(gap) = (0..n).find(|&i| !tangent(&rays[(i + n - 1) % n], &rays[i])) {
+        rays.rotate_left(gap);
+    }
+    let mut first = 0;
+    for i in 1..=n {
+        if i == n || !tangent(&rays[i - 1], &rays[i]) {
+            rays[first..i].sort_by(|a, b| b.curvature.total_cmp(&a.curvature));
+            first = i;
+        }
+    }
+}
+
+/// The closed loops that `next` describes, in the order of their first elements.
+fn follow(elements: &[Drawn], next: &[usize]) -> Vec<Vec<Drawn>> {
+    let mut seen = vec![false; elements.len()];
+    let mut loops = Vec::new();
+    for first in 0..elements.len() {
+        let mut row = Vec::new();
+        let mut at = first;
+        while !seen[at] {
+            seen[at] = true;
+            row.push(elements[at]);
+            at = next[at];
+        }
+        if !row.is_empty() {
+            loops.push(row);
+        }
+    }
+    loops
+}

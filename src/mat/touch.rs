@@ -1,0 +1,151 @@
+//! The disk that touches the boundary in one place and a site in another.
+//!
+//! All sites share one formula in *curvature form* (no centers, no case for straight lines). The
+//! disk tangent at `P` with inward normal `N` has its center at `P + r N`; it touches the carrier of
+//! a site that passes through `A` with inward normal `n` and curvature `k` when, with `w = P - A`,
+//!
+//! ```text
+//! r = (2 w.n - k |w|^2) / (|N - n|^2 + 2 k N.w)
+//! ```
+//!
+//! (`|N - n|^2` stands for `2 (1 - N.n)`, which cancels). `A` is the end of the site nearer to `P`,
+//! and `P` is given from a vertex of the boundary, so that `w` is small and exact where it matters:
+//! in narrow corners. Where the contact lies off the site, an end of the site takes its place; the
+//! disk found is then never larger than the one that touches the closed site.
+
+use super::site::{Foot, Site};
+use crate::geom::{Point, Vector};
+
+/// A place of the boundary and the normal along which a disk grows there.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Probe {
+    /// The nearer end of the piece that is probed.
+    pub base: Point,
+    /// From there to the place.
+    pub offset: Vector,
+    /// Unit normal.
+    pub normal: Vector,
+    /// Vertex of the boundary at the place, or at an end of the probed piece where it goes on
+    /// smoothly: sites that meet it there are touched at their other ends only.
+    pub vertices: [u32; 2],
+}
+
+impl Probe {
+    #[inline]
+    pub fn point(&self) -> Point {
+        self.base + self.offset
+    }
+
+    #[inline]
+    pub fn center(&self, radius: f64) -> Point {
+        self.point() + self.normal * radius
+    }
+}
+
+/// Where on a site a disk touches it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Contact {
+    /// Between its ends, tangentially.
+    Inside,
+    Start,
+    End,
+    /// Along the whole arc, to which the disk is tangent where it is probed.
+    Whole,
+}
+
+/// A site, or a part of one.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Span<'a> {
+    pub site: &'a Site,
+    pub from: &'a Foot,
+    pub to: &'a Foot,
+    /// Vertices of the boundary at its ends, if it reaches them.
+    pub vertices: [u32; 2],
+}
+
+impl<'a> Span<'a> {
+    #[inline]
+    pub fn whole(site: &'a Site) -> Span<'a> {
+        Span { site, from: &site.start, to: &site.end, vertices: site.vertices }
+    }
+}
+
+/// Radius of the disk that touches the span, and where; infinite when none does.
+#[inline]
+pub(crate) fn touch(span: Span<'_>, probe: &Probe) -> (f64, Contact) {
+    /// No disk is held back by this span.
+    const NEVER: (f64, Contact) = (f64::INFINITY, Contact::Inside);
+    let [v0, v1] = span.vertices;
+    let meets = |v: u32| v != super::site::NONE && (v == probe.vertices[0] || v == probe.vertices[1]);
+    let (at_start, at_end) = (meets(v0), meets(v1));
+    if span.site.is_vertex {
+        return if at_start { NEVER } else { (to_point(span.site.start.point, probe), Contact::Inside) };
+    }
+    if !at_start && !at_end {
+        if let Some(radius) = tangent(&span, probe) {
+            return (radius, Contact::Inside);
+        }
+    }
+    let start = if at_start { f64::INFINITY } else { to_point(span.from.point, probe) };
+    let end = if at_end { f64::INFINITY } else { to_point(span.to.point, probe) };
+    if start <= end { (start, Contact::Start) } else { (end, Contact::End) }
+}
+
+/// Radius of the disk through a point: `|w|^2 / (-2 N.w)`.
+#[inline]
+fn to_point(q: Point, probe: &Probe) -> f64 {
+    let w = (probe.base - q) + probe.offset;
+    let d = -2.0 * probe.normal.dot(w);
+    if d > 0.0 { w.length_squared() / d } else { f64::INFINITY }
+}
+
+/// Radius of the disk tangent to the span between its ends.
+#[inline]
+fn tangent(span: &Span<'_>, probe: &Probe) -> Option<f64> {
+    let k = span.site.curvature;
+    let w0 = (probe.base - span.from.point) + probe.offset;
+    let w1 = (probe.base - span.to.point) + probe.offset;
+    let near_start = w0.length_squared() <= w1.length_squared();
+    let (w, n) = if near_start { (w0, span.from.normal) } else { (w1, span.to.normal) };
+    let numerator = 2.0 * w.dot(n) - k * w.length_squared();
+    let denominator = (probe.normal - n).length_squared() + 2.0 * k * probe.normal.dot(w);
+    if !(numerator > 0.0 && denominator > 0.0) {
+        return None;
+    }
+    let r = numerator / denominator;
+    let f = 1.0 - k * r;
+    if f <= 0.0 {
+        return None;
+    }
+    // The contact, seen from the nearer end: c - A = w + r N, its normal is (n - k (c - A)) / f.
+    let to_center = w + probe.normal * r;
+    let q = to_center - (n - to_center * k) * (r / f);
+    let chord = span.to.point - span.from.point;
+    let (q0, q1) = if near_start { (q, q - chord) } else { (q + chord, q) };
+    let inside = q0.dot(span.from.normal.right()) >= 0.0 && q1.dot(span.to.normal.right()) <= 0.0;
+    inside.then_some(r)
+}
+
+/// Where a disk touches a site, held between two feet of it.
+pub(crate) fn foot_of(site: &Site, center: Point, from: &Foot, to: &Foot) -> Foot {
+    let (distance, normal) = site.carrier_distance(center);
+    if site.is_vertex {
+        // The cone turns right from `from` to `to`.
+        let normal = if from.normal.cross(normal) > 0.0 {
+            from.normal
+        } else if normal.cross(to.normal) > 0.0 {
+            to.normal
+        } else {
+            normal
+        };
+        return Foot { point: site.start.point, normal };
+    }
+    let point = center - normal * distance;
+    if (point - from.point).dot(from.normal.right()) < 0.0 {
+        *from
+    } else if (point - to.point).dot(to.normal.right()) > 0.0 {
+        *to
+    } else {
+        Foot { point, normal }
+    }
+}

@@ -1,0 +1,171 @@
+//! The transform as a whole.
+
+use super::bvh::Bvh;
+use super::conic::bezier;
+use super::frame::Frame;
+use super::graph::Graph;
+use super::kinds::Kinds;
+use super::lamination::{Lamination, UnitDisk};
+use super::radii::Radii;
+use super::shot::shoot_all;
+use super::site::{NONE, Site};
+use super::sites::Sites;
+use super::{AxisEdge, AxisVertex, Disk};
+use crate::boundary::Pocket;
+use crate::error::Error;
+use crate::geom::{Point, Vector};
+use serde::{Deserialize, Serialize};
+use std::sync::OnceLock;
+
+/// The medial axis transform of a pocket.
+#[derive(Clone, Debug)]
+pub struct Mat {
+    pub(crate) frame: Frame,
+    pub(crate) sites: Vec<Site>,
+    pub(crate) bvh: Bvh,
+    pub(crate) graph: Graph,
+    pub(super) kinds: Kinds,
+    pub(super) islands: usize,
+    radii: OnceLock<Radii>,
+}
+
+/// Counts that `--timings` reports.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Counts {
+    /// Boundary elements, reflex vertices included.
+    pub sites: usize,
+    /// Axis vertices.
+    pub vertices: usize,
+    /// Axis edges.
+    pub edges: usize,
+}
+
+/// What [`Mat::check`] can find wrong.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Mismatch {
+    /// The axis is not connected.
+    #[error("the axis has {components} components")]
+    Components {
+        /// How many.
+        components: usize,
+    },
+    /// The Euler count is off.
+    #[error("{vertices} vertices and {edges} edges do not fit {islands} islands")]
+    Euler {
+        /// Vertices of the axis.
+        vertices: usize,
+        /// Edges of the axis.
+        edges: usize,
+        /// Islands of the pocket.
+        islands: usize,
+    },
+    /// A disk does not touch what it should, or holds what it should not.
+    #[error("a disk at ({}, {}) is off by {relative:e} of the size", .at.x, .at.y)]
+    Residual {
+        /// How much, relative to the size of the pocket.
+        relative: f64,
+        /// Center of the disk.
+        at: Point,
+    },
+}
+
+/// Directions in which holes are linked, one after the other until one has no ties. They are turned
+/// by irrational angles: drawings have their symmetries along other ones.
+const DIRECTIONS: [f64; 4] = [2.4, 5.2, 0.7, 3.9];
+
+/// Disks united by ties are equal but for round-off; the angle under which they see their contacts
+/// may cost half of the digits.
+const UNION_ERROR: f64 = 1.0 / 67_108_864.0;
+
+impl Pocket {
+    /// The medial axis transform.
+    ///
+    /// # Errors
+    /// [`Error::Internal`] when the loops do not bound a pocket after all.
+    pub fn medial_axis(&self) -> Result<Mat, Error> {
+        let frame = Frame::around(&self.bounds());
+        let mut failure = None;
+        for angle in DIRECTIONS {
+            match laminate(self, &frame, Vector::from_angle(angle)) {
+                Ok((all, bvh, map, union)) => {
+                    let mat = || Mat::build(frame, all, bvh, map, self.islands().len());
+                    if union.0 <= UNION_ERROR {
+                        return Ok(mat());
+                    }
+                    // Better an axis that says where it is doubtful than none.
+                    failure.get_or_insert_with(|| Ok(mat()));
+                }
+                Err(at) => failure = failure.or(Some(Err(at))),
+            }
+        }
+        match failure {
+            Some(Ok(mat)) => Ok(mat),
+            Some(Err(at)) => Err(Error::Internal {
+                what: "a disk at the boundary touches nothing else".into(),
+                at: frame.leave(at),
+            }),
+            None => unreachable!("there are directions"),
+        }
+    }
+}
+
+type Laminated = (Sites, Bvh, Lamination, (f64, Point));
+
+/// Sites, shots and map for one direction of links; the place of a shot into nothing otherwise.
+fn laminate(pocket: &Pocket, frame: &Frame, direction: Vector) -> Result<Laminated, Point> {
+    let all = Sites::of(pocket, frame, direction);
+    let bvh = Bvh::build(all.sites.iter().map(Site::bounds));
+    let shots = shoot_all(&all.sites, &bvh);
+    let lost =
+        (0..shots.len()).find(|&i| shots[i].site == NONE && all.sites[i].joint != super::site::Joint::Convex);
+    if let Some(i) = lost {
+        return Err(all.sites[i].end.point);
+    }
+    let map = Lamination::of(&all, &shots)
+        .ok_or_else(|| all.sites.first().map_or(Point::default(), |s| s.end.point))?;
+    let union = map.widest_union;
+    Ok((all, bvh, map, union))
+}
+
+impl Mat {
+    fn build(frame: Frame, all: Sites, bvh: Bvh, map: Lamination, islands: usize) -> Mat {
+        let mut graph = Graph::of(&all.sites, map);
+        graph.contract();
+        graph.split_at_extrema(&all.sites);
+        let kinds = Kinds::of(&graph);
+        Mat { frame, sites: all.sites, bvh, graph, kinds, islands, radii: OnceLock::new() }
+    }
+
+    /// The index by radius, made when the first level asks for it.
+    pub(crate) fn radii(&self) -> &Radii {
+        self.radii.get_or_init(|| Radii::of(&self.graph, &self.kinds))
+    }
+
+    /// The vertices, in job units.
+    pub fn vertices(&self) -> Vec<AxisVertex> {
+        let vertex = |(disk, &kind)| AxisVertex { disk: self.disk_out(disk), kind };
+        self.graph.disks.iter().zip(&self.kinds.kinds).map(vertex).collect()
+    }
+
+    /// The edges, in job units.
+    pub fn edges(&self) -> Vec<AxisEdge> {
+        let edge = |e: &super::graph::GraphEdge| {
+            let (points, weight) = bezier(&self.sites, &self.graph, e);
+            let source = |p: u32| self.sites[self.graph.pieces[p as usize].piece.site as usize].source;
+            let [right, left] = e.pieces.map(source);
+            let points = points.map(|p| self.frame.leave(p));
+            AxisEdge { from: e.disks[0], to: e.disks[1], sites: [left, right], points, weight }
+        };
+        self.graph.edges.iter().map(edge).collect()
+    }
+
+    /// How much there is of everything.
+    pub fn counts(&self) -> Counts {
+        Counts { sites: self.sites.len(), vertices: self.graph.disks.len(), edges: self.graph.edges.len() }
+    }
+
+    pub(super) fn disk_out(&self, disk: &UnitDisk) -> Disk {
+        Disk { center: self.frame.leave(disk.center), radius: self.frame.length_out(disk.radius) }
+    }
+}

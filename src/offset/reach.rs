@@ -1,0 +1,125 @@
+//! What a round tool can reach.
+
+use super::trace::{Stretch, Tracer};
+use crate::geom::{ArcSpline, Element, Point, Vertex};
+use crate::mat::Mat;
+use std::f64::consts::{PI, TAU};
+
+impl Mat {
+    /// Area of the pocket that a disk of this radius, moved inside, cannot reach, in square job units.
+    ///
+    /// Exact but for one case: where three or more reachable parts face each other over the same
+    /// unreachable place and all overlap there, the overlap is counted by pairs.
+    pub fn unreachable_area(&self, radius: f64) -> f64 {
+        let whole = self.area();
+        let unit = self.frame.length_in(radius);
+        if !(unit > 0.0) {
+            return 0.0;
+        }
+        if unit > 1.0 {
+            return whole;
+        }
+        let tracer = Tracer::new(self, unit);
+        let loops: f64 = tracer.walks().iter().map(|walk| tracer.outline(walk).area()).sum();
+        let scale = self.frame.length_out(1.0);
+        let overlap = tracer.overlap();
+        let ridges: f64 = self.level(radius).ridges.iter().map(|ridge| ridge_area(ridge, radius)).sum();
+        (whole - (loops - overlap) * scale * scale - ridges).clamp(0.0, whole)
+    }
+
+    /// Area of the pocket.
+    fn area(&self) -> f64 {
+        let sites = self.sites.iter().filter(|s| !s.is_vertex);
+        let origin = Point::default();
+        let unit: f64 = sites
+            .map(|s| {
+                let half = 0.25 * s.start.normal.angle_to(s.end.normal);
+                Element::arc(s.start.point, s.end.point, if s.curvature == 0.0 { 0.0 } else { half.tan() })
+                    .area(origin)
+            })
+            .sum();
+        let scale = self.frame.length_out(1.0);
+        unit * scale * scale
+    }
+}
+
+/// Area swept by a disk along a ridge: twice the radius times the length, and half a disk at each
+/// end. (An end that lies on a loop is counted with the loop already; its half disk lies in the slot
+/// and the loop's cap covers as much of it.)
+fn ridge_area(ridge: &ArcSpline, radius: f64) -> f64 {
+    match (ridge.closed, ridge.vertices.len()) {
+        (true, _) => 2.0 * radius * ridge.length(),
+        (false, 1) => PI * radius * radius,
+        (false, _) => 2.0 * radius * ridge.length(),
+    }
+}
+
+impl Tracer<'_> {
+    /// The outline of what a disk of radius `d` sweeps with its center inside of a walk: the stretches
+    /// of the boundary, joined by arcs of the disk about the crossings.
+    fn outline(&self, walk: &[Stretch]) -> ArcSpline {
+        let mut vertices = Vec::with_capacity(2 * walk.len());
+        for (i, stretch) in walk.iter().enumerate() {
+            let next = &walk[(i + 1) % walk.len()];
+            let site = &self.mat.sites[stretch.site as usize];
+            if !site.is_vertex {
+                vertices.push(Vertex { point: stretch.from.point, bulge: (0.25 * stretch.turn).tan() });
+            }
+            if next.at_crossing {
+                let turn = stretch.to.normal.angle_to(next.from.normal).rem_euclid(TAU);
+                vertices.push(Vertex { point: stretch.to.point, bulge: (0.25 * turn).tan() });
+            }
+        }
+        ArcSpline { vertices, closed: true }
+    }
+
+    /// Area that disks about two crossings share where both ends of an unreachable neck face each
+    /// other.
+    fn overlap(&self) -> f64 {
+        let mut neck_of: std::collections::BTreeMap<u32, Vec<Point>> = std::collections::BTreeMap::new();
+        let outside = self.outside_components();
+        for &edge in &self.edges {
+            let disks = self.mat.graph.edges[edge as usize].disks;
+            let out = match disks.map(|v| self.is_inside(v)) {
+                [false, true] => disks[0],
+                [true, false] => disks[1],
+                _ => continue,
+            };
+            neck_of.entry(outside[out as usize]).or_default().push(self.crossing(edge));
+        }
+        let pairs = neck_of.values().flat_map(|ends| {
+            (0..ends.len()).flat_map(move |i| (0..i).map(move |j| ends[i].distance(ends[j])))
+        });
+        pairs.map(|apart| lens(apart, self.d)).sum()
+    }
+
+    /// Component of the axis with radius up to `d` that each vertex lies in.
+    fn outside_components(&self) -> Vec<u32> {
+        let graph = &self.mat.graph;
+        let mut root: Vec<u32> = (0..graph.disks.len() as u32).collect();
+        fn find(root: &mut [u32], mut i: u32) -> u32 {
+            while root[i as usize] != i {
+                root[i as usize] = root[root[i as usize] as usize];
+                i = root[i as usize];
+            }
+            i
+        }
+        for edge in &graph.edges {
+            let [a, b] = edge.disks;
+            if !self.is_inside(a) && !self.is_inside(b) {
+                let (a, b) = (find(&mut root, a), find(&mut root, b));
+                root[a.max(b) as usize] = a.min(b);
+            }
+        }
+        (0..root.len() as u32).map(|i| find(&mut root, i)).collect()
+    }
+}
+
+/// Area common to two disks of radius `r` whose centers are `apart`.
+fn lens(apart: f64, r: f64) -> f64 {
+    let half = 0.5 * apart / r;
+    if half >= 1.0 {
+        return 0.0;
+    }
+    2.0 * r * r * (half.acos() - half * (1.0 - half * half).sqrt())
+}

@@ -1,0 +1,89 @@
+//! Ridges: where the distance is attained and no area remains.
+
+use super::trace::Tracer;
+use crate::geom::{ArcSpline, Vertex};
+use crate::mat::DISK_ERROR;
+use std::collections::BTreeMap;
+
+/// A way along a ridge: an edge of the axis, and whether it is run from its end to its start.
+#[derive(Clone, Copy)]
+struct Way {
+    edge: u32,
+    backward: bool,
+    to: u32,
+}
+
+impl Tracer<'_> {
+    fn is_at(&self, vertex: u32) -> bool {
+        (self.mat.graph.disks[vertex as usize].radius - self.d).abs() <= DISK_ERROR
+    }
+
+    /// The ridges, in job units: paths between their branchings and ends, rings, single places.
+    pub fn ridges(&self) -> Vec<ArcSpline> {
+        let mut ways: BTreeMap<u32, Vec<Way>> = BTreeMap::new();
+        let mut beside: Vec<u32> = Vec::new();
+        for &edge in &self.edges {
+            let [a, b] = self.mat.graph.edges[edge as usize].disks;
+            match [a, b].map(|v| self.is_at(v)) {
+                [true, true] => {
+                    ways.entry(a).or_default().push(Way { edge, backward: false, to: b });
+                    ways.entry(b).or_default().push(Way { edge, backward: true, to: a });
+                }
+                [true, false] if self.is_inside(b) => beside.push(a),
+                [false, true] if self.is_inside(a) => beside.push(b),
+                _ => {}
+            }
+        }
+        let mut ridges = self.chains(&ways);
+        beside.sort_unstable();
+        for peak in self.mat.radii().peaks_at(self.d) {
+            if !ways.contains_key(&peak) && beside.binary_search(&peak).is_err() {
+                let point = self.mat.frame.leave(self.mat.graph.disks[peak as usize].center);
+                ridges.push(ArcSpline { vertices: vec![Vertex { point, bulge: 0.0 }], closed: false });
+            }
+        }
+        ridges
+    }
+
+    fn chains(&self, ways: &BTreeMap<u32, Vec<Way>>) -> Vec<ArcSpline> {
+        let mut done = std::collections::HashSet::new();
+        let mut ridges = Vec::new();
+        // From ends and branchings first; what is left over are rings.
+        let ends = ways.iter().filter(|(_, w)| w.len() != 2);
+        for (&start, from) in ends.chain(ways.iter()) {
+            for &first in from {
+                if !done.insert(first.edge) {
+                    continue;
+                }
+                let mut vertices = vec![self.vertex(start, first)];
+                let mut way = first;
+                while way.to != start && ways[&way.to].len() == 2 {
+                    let here = way.to;
+                    let Some(&onward) = ways[&here].iter().find(|w| !done.contains(&w.edge)) else { break };
+                    done.insert(onward.edge);
+                    vertices.push(self.vertex(here, onward));
+                    way = onward;
+                }
+                let closed = way.to == start;
+                if !closed {
+                    let point = self.mat.frame.leave(self.mat.graph.disks[way.to as usize].center);
+                    vertices.push(Vertex { point, bulge: 0.0 });
+                }
+                ridges.push(ArcSpline { vertices, closed });
+            }
+        }
+        ridges
+    }
+
+    /// A vertex of a ridge with the bulge of the way that leaves it. Along a ridge the axis is the
+    /// offset of its sites, and turns with their normals.
+    fn vertex(&self, at: u32, way: Way) -> Vertex {
+        let edge = &self.mat.graph.edges[way.edge as usize];
+        let piece = &self.mat.graph.pieces[edge.pieces[usize::from(way.backward)] as usize].piece;
+        let site = &self.mat.sites[piece.site as usize];
+        let straight = site.curvature == 0.0 && !site.is_vertex;
+        let turn = if straight { 0.0 } else { piece.from.normal.angle_to(piece.to.normal) };
+        let point = self.mat.frame.leave(self.mat.graph.disks[at as usize].center);
+        Vertex { point, bulge: (0.25 * turn).tan() }
+    }
+}

@@ -1,0 +1,194 @@
+//! Walking around what lies farther from the boundary than a distance.
+
+use crate::geom::Point;
+use crate::mat::{
+    BoundaryPiece, DISK_ERROR, Foot, GraphEdge, Mat, NONE, Piece, Site, Track, falling_root, foot_of,
+};
+
+/// A stretch of the boundary whose offset is part of the level set, within one site.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stretch {
+    pub site: u32,
+    /// Angle by which the normal turns from `from` to `to`, counter-clockwise positive.
+    pub turn: f64,
+    pub from: Foot,
+    pub to: Foot,
+    /// Where its offset begins.
+    pub start: Point,
+    /// Whether it begins on the axis, at a crossing with another stretch.
+    pub at_crossing: bool,
+}
+
+/// One distance in one axis, in the unit frame.
+pub(super) struct Tracer<'a> {
+    pub mat: &'a Mat,
+    pub d: f64,
+    /// The edges whose radii reach to `d`.
+    pub edges: Vec<u32>,
+}
+
+impl<'a> Tracer<'a> {
+    pub fn new(mat: &'a Mat, d: f64) -> Tracer<'a> {
+        Tracer { mat, d, edges: mat.radii().edges_at(d) }
+    }
+
+    /// Whether more than round-off of the pocket is farther away than `d` at a vertex.
+    pub fn is_inside(&self, vertex: u32) -> bool {
+        self.mat.graph.disks[vertex as usize].radius > self.d + DISK_ERROR
+    }
+
+    fn edge(&self, id: u32) -> &GraphEdge {
+        &self.mat.graph.edges[id as usize]
+    }
+
+    fn piece(&self, id: u32) -> &BoundaryPiece {
+        &self.mat.graph.pieces[id as usize]
+    }
+
+    /// Which of an edge's pieces runs into the inside, if the level crosses the edge.
+    fn entering(&self, edge: u32) -> Option<u32> {
+        let e = self.edge(edge);
+        match e.disks.map(|d| self.is_inside(d)) {
+            [false, true] => Some(e.pieces[0]),
+            [true, false] => Some(e.pieces[1]),
+            _ => None,
+        }
+    }
+
+    /// All closed walks.
+    pub fn walks(&self) -> Vec<Vec<Stretch>> {
+        let mut walks = Vec::new();
+        for &(first, least) in &self.mat.radii().rings {
+            if least > self.d + DISK_ERROR {
+                walks.push(self.whole_ring(first));
+            }
+        }
+        let mut done = std::collections::HashSet::new();
+        for &edge in &self.edges {
+            if let Some(entering) = self.entering(edge) {
+                if !done.contains(&edge) {
+                    walks.push(self.walk_from(entering, &mut done));
+                }
+            }
+        }
+        walks
+    }
+
+    /// A ring of the boundary that is inside all along.
+    fn whole_ring(&self, first: u32) -> Vec<Stretch> {
+        // Begin where a site does, so that no stretch is cut.
+        let mut start = first;
+        while self.piece(start).piece.site == self.piece(self.piece(start).next).piece.site {
+            start = self.piece(start).next;
+            if start == first {
+                break;
+            }
+        }
+        start = self.piece(start).next;
+        let mut walk = Vec::new();
+        let mut at = start;
+        loop {
+            let piece = &self.piece(at).piece;
+            self.add(&mut walk, piece.site, piece.from, piece.to, None);
+            at = self.piece(at).next;
+            if at == start {
+                return walk;
+            }
+        }
+    }
+
+    /// The walk that begins where the level crosses the edge of `first` into the inside.
+    fn walk_from(&self, first: u32, done: &mut std::collections::HashSet<u32>) -> Vec<Stretch> {
+        let mut walk = Vec::new();
+        let mut entering = first;
+        loop {
+            let edge = self.piece(entering).edge;
+            done.insert(edge);
+            let piece = self.piece(entering).piece;
+            let center = self.crossing(edge);
+            let foot = foot_of(self.site(&piece), center, &piece.from, &piece.to);
+            self.add(&mut walk, piece.site, foot, piece.to, Some(center));
+            let mut at = self.piece(entering).next;
+            // Along the boundary until the level crosses an edge again, going out.
+            loop {
+                let BoundaryPiece { piece, next, edge } = *self.piece(at);
+                if edge != NONE && self.entering(edge).is_some() {
+                    let foot = foot_of(self.site(&piece), self.crossing(edge), &piece.from, &piece.to);
+                    self.add(&mut walk, piece.site, piece.from, foot, None);
+                    let pieces = self.edge(edge).pieces;
+                    entering = if pieces[0] == at { pieces[1] } else { pieces[0] };
+                    break;
+                }
+                self.add(&mut walk, piece.site, piece.from, piece.to, None);
+                at = next;
+            }
+            if entering == first {
+                return walk;
+            }
+        }
+    }
+
+    fn site(&self, piece: &Piece) -> &Site {
+        &self.mat.sites[piece.site as usize]
+    }
+
+    /// Adds a stretch, as one with the last if that is on the same site or arc and no crossing lies
+    /// between them.
+    fn add(&self, walk: &mut Vec<Stretch>, site: u32, from: Foot, to: Foot, crossing: Option<Point>) {
+        let s = &self.mat.sites[site as usize];
+        let straight = s.curvature == 0.0 && !s.is_vertex;
+        let turn = if straight { 0.0 } else { from.normal.angle_to(to.normal) };
+        if let (None, Some(last)) = (crossing, walk.last_mut()) {
+            let other = &self.mat.sites[last.site as usize];
+            let same = last.site == site
+                || s.source == other.source && (last.turn + turn).abs() <= std::f64::consts::PI;
+            if same {
+                last.to = to;
+                last.turn += turn;
+                last.site = site;
+                return;
+            }
+        }
+        let start = crossing.unwrap_or(from.point + from.normal * self.d);
+        walk.push(Stretch { site, turn, from, to, start, at_crossing: crossing.is_some() });
+    }
+
+    /// Where on an edge the radius is `d`: the same place for both sides.
+    pub fn crossing(&self, edge: u32) -> Point {
+        let e = self.edge(edge);
+        let [a, b] = e.pieces.map(|p| self.piece(p).piece);
+        let extent = |p: &Piece| p.from.point.distance(p.to.point);
+        let swap = extent(&b) > extent(&a);
+        let (along, across) = if swap { (&b, &a) } else { (&a, &b) };
+        let radius_at = |end: usize| self.mat.graph.disks[e.disks[end] as usize].radius;
+        let falls = (radius_at(0) > radius_at(1)) != swap;
+        let track = Track::of(&self.mat.sites, along);
+        let radius = |t: f64| track.reach(&self.mat.sites, across, &track.at(t)).0;
+        let sign = if falls { 1.0 } else { -1.0 };
+        let t = falling_root(0.0, 1.0, |t| {
+            sign * if radius(t).is_finite() { radius(t) - self.d } else { self.d }
+        });
+        // The place at this distance from the one side is exact; the other's is made so as well.
+        let start = track.at(t).center(self.d);
+        self.polished([self.site(&a), self.site(&b)], start)
+    }
+
+    /// Newton's step for a place at distance `d` from two carriers, while it helps.
+    fn polished(&self, sites: [&Site; 2], mut c: Point) -> Point {
+        let residuals = |c: Point| sites.map(|s| s.carrier_distance(c)).map(|(s, n)| (self.d - s, n));
+        let worst = |r: &[(f64, crate::geom::Vector); 2]| r[0].0.abs().max(r[1].0.abs());
+        let mut now = residuals(c);
+        while worst(&now) > f64::EPSILON * self.d {
+            let [(e0, n0), (e1, n1)] = now;
+            let det = n0.cross(n1);
+            let step = crate::geom::vector((e0 * n1.y - e1 * n0.y) / det, (e1 * n0.x - e0 * n1.x) / det);
+            let next = c + step;
+            let after = residuals(next);
+            if !(worst(&after) < 0.5 * worst(&now)) {
+                break;
+            }
+            (c, now) = (next, after);
+        }
+        c
+    }
+}
