@@ -4,7 +4,7 @@ use super::frame::{Frame, escape};
 use super::shape;
 use super::style::{self, Look};
 use crate::boundary::Pocket;
-use crate::geom::{ArcSpline, Bounds, Element, Point, point};
+use crate::geom::{ArcSpline, Bounds, Element, Point};
 use crate::mat::AxisEdge;
 use crate::offset::Level;
 use crate::tolerance::Units;
@@ -192,8 +192,10 @@ impl<'a> Picture<'a> {
         let _ = write!(svg, "<style>\n{}</style>\n", style::sheet(frame.pixel()));
         let _ = writeln!(
             svg,
-            "<rect class=\"stock\" y=\"{:.0}\" width=\"{width:.0}\" height=\"{total:.0}\"/>",
-            -head
+            "<rect class=\"stock\" x=\"-1\" y=\"{:.0}\" width=\"{:.0}\" height=\"{:.0}\"/>",
+            -head - 1.0,
+            width + 2.0,
+            total + 2.0
         );
         if !self.title.is_empty() {
             let _ =

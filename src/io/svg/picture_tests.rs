@@ -1,4 +1,5 @@
 use super::*;
+use crate::geom::point;
 use crate::toolpath::Point3;
 
 fn plate() -> Pocket {

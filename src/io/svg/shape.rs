@@ -49,7 +49,8 @@ fn arc(frame: &Frame, e: &Element) -> String {
 /// An edge of the axis: straight, or parabolas that lie as good as on the conic.
 pub(super) fn conic(frame: &Frame, edge: &AxisEdge) -> String {
     let points = edge.points;
-    if !points.iter().all(|p| p.is_finite()) || !(edge.weight > 0.0 && edge.weight.is_finite()) {
+    let usable = points.iter().all(|p| p.is_finite()) && edge.weight > 0.0 && edge.weight.is_finite();
+    if !usable {
         return String::new();
     }
     let mut d = format!("M{}", frame.place(points[0]));
@@ -118,8 +119,7 @@ mod tests {
     fn a_quarter_of_a_circle_is_followed_closely() {
         let weight = std::f64::consts::FRAC_1_SQRT_2;
         let d = conic(&frame(), &edge([(100.0, 0.0), (100.0, 100.0), (0.0, 100.0)], weight));
-        let numbers: Vec<f64> =
-            d.split(|c: char| c == ' ' || c == 'M' || c == 'Q').filter_map(|s| s.parse().ok()).collect();
+        let numbers: Vec<f64> = d.split([' ', 'M', 'Q']).filter_map(|s| s.parse().ok()).collect();
         let mut from = point(numbers[0], numbers[1]);
         for c in numbers[2..].chunks(4) {
             let (control, to) = (point(c[0], c[1]), point(c[2], c[3]));

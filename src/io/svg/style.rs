@@ -30,13 +30,13 @@ const fn look(
 }
 
 /// The outlines of pockets and islands.
-pub(super) const WALL: Look = look("wall", "boundary", ["#1f2a37", "#e8edf4"], 1.6, &[]);
+pub(super) const WALL: Look = look("wall", "boundary", ["#1f2a37", "#e8edf4"], 1.8, &[]);
 /// The medial axis.
 pub(super) const AXIS: Look = look("axis", "medial axis", ["#b0308f", "#f08bd6"], 1.2, &[]);
 /// Level sets.
-pub(super) const LEVEL: Look = look("level", "level sets", ["#17808a", "#4cc4c4"], 0.9, &[]);
+pub(super) const LEVEL: Look = look("level", "level sets", ["#17808a", "#4cc4c4"], 1.1, &[]);
 /// Cuts at depth.
-pub(super) const CUT: Look = look("cut", "cut", ["#2463c8", "#7fb2ff"], 1.1, &[]);
+pub(super) const CUT: Look = look("cut", "cut", ["#2463c8", "#7fb2ff"], 1.2, &[]);
 /// Ways down into the stock.
 pub(super) const ENTRY: Look = look("entry", "entry", ["#d9600a", "#ff9d4d"], 1.8, &[]);
 /// Rapids.
