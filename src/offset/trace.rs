@@ -1,9 +1,7 @@
 //! Walking around what lies farther from the boundary than a distance.
 
 use crate::geom::Point;
-use crate::mat::{
-    BoundaryPiece, DISK_ERROR, Foot, GraphEdge, Mat, NONE, Piece, Site, Track, falling_root,
-};
+use crate::mat::{BoundaryPiece, DISK_ERROR, Foot, GraphEdge, Mat, NONE, Piece, Site, Track, falling_root};
 
 /// A stretch of the boundary whose offset is part of the level set, within one site.
 #[derive(Clone, Copy, Debug)]

@@ -22,15 +22,9 @@ use rayon::prelude::*;
 /// takes a few thousand roundings at worst from the boundary to its loops, each at most `eps / 2`.
 const ROUND_OFF: f64 = 4096.0 * f64::EPSILON;
 
-<<<<<<< HEAD
-/// Share of the largest coordinate by which the judge steps aside of a loop: sixteen times the
-/// round-off of a distance, so that growing and falling can be told apart.
-const ASIDE: f64 = 16.0 * ROUND_OFF;
-=======
 /// How far the judge steps aside of a loop, relative to the largest coordinate: well beyond
 /// round-off, and no farther, as in a small drawing far from the origin that is far enough.
 const ASIDE: f64 = 8.0 * ROUND_OFF;
->>>>>>> w-write
 
 /// Parameters at which every element is looked at; the ends belong to its neighbors as well.
 const PLACES: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
