@@ -1,14 +1,19 @@
 //! From drawn curves to pockets.
 
+mod arrange;
 mod chain;
 mod clean;
+mod crossing;
 mod curve;
 mod duplicate;
 mod ends;
 mod fan;
 mod grain;
 mod index;
+mod intersect;
+mod nest;
 mod pocket;
+mod ray;
 
 pub use curve::{Curve, Source};
 pub use pocket::{Pocket, Pockets};
