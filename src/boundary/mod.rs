@@ -1,6 +1,7 @@
 //! From drawn curves to pockets.
 
 mod arrange;
+mod assemble;
 mod chain;
 mod clean;
 mod crossing;
@@ -14,6 +15,7 @@ mod intersect;
 mod nest;
 mod pocket;
 mod ray;
+mod simple;
 
 pub use curve::{Curve, Source};
 pub use pocket::{Pocket, Pockets};

@@ -19,7 +19,8 @@ use std::collections::HashMap;
 #[derive(Debug)]
 pub(super) struct Nest {
     rays: Rays,
-    classes: Classes,
+    /// The class of every side.
+    classes: Vec<usize>,
     /// For each class of sides the loop around it.
     around: Vec<Option<usize>>,
     /// For each loop how many are around it.
@@ -33,8 +34,9 @@ pub(super) struct Nest {
 struct Classes(Vec<usize>);
 
 impl Classes {
-    fn of(&self, mut side: usize) -> usize {
+    fn of(&mut self, mut side: usize) -> usize {
         while self.0[side] != side {
+            self.0[side] = self.0[self.0[side]];
             side = self.0[side];
         }
         side
@@ -43,11 +45,11 @@ impl Classes {
     fn unite(&mut self, a: usize, b: usize) {
         let (a, b) = (self.of(a), self.of(b));
         self.0[a.max(b)] = a.min(b);
-        // Shorter ways for the next question.
-        let root = a.min(b);
-        for side in [a, b] {
-            self.0[side] = root;
-        }
+    }
+
+    /// The class of every side.
+    fn settled(mut self) -> Vec<usize> {
+        (0..self.0.len()).map(|side| self.of(side)).collect()
     }
 }
 
@@ -63,7 +65,7 @@ impl Nest {
             unite_between_branches(junction, &mut classes);
             junction.strands.windows(2).for_each(|s| touching.unite(s[0].path, s[1].path));
         }
-        let touching: Vec<usize> = (0..count).map(|i| touching.of(i)).collect();
+        let touching = touching.settled();
         for (leftmost, place, outer) in leftmost_sides(&rays, &touching, &junctions) {
             let around = match rays.first(place, |other| touching[other] == touching[leftmost]) {
                 Some(hit) => side_of(hit),
@@ -71,8 +73,9 @@ impl Nest {
             };
             classes.unite(outer, around);
         }
+        let classes = classes.settled();
         let mut around = vec![None; 2 * count + 1];
-        (0..count).for_each(|i| around[classes.of(2 * i + 1)] = Some(i));
+        (0..count).for_each(|i| around[classes[2 * i + 1]] = Some(i));
         let mut nest = Nest { rays, classes, around, depth: vec![usize::MAX; count], count };
         nest.measure_depth();
         nest
@@ -96,13 +99,13 @@ impl Nest {
 
     /// The loop directly around a loop.
     pub fn parent(&self, i: usize) -> Option<usize> {
-        self.around[self.classes.of(2 * i)]
+        self.around[self.classes[2 * i]]
     }
 
     /// The loop directly around a place that is on no loop.
     pub fn around(&self, p: Point) -> Option<usize> {
         let hit = self.rays.first(turned(p), |_| false)?;
-        self.around[self.classes.of(side_of(hit))]
+        self.around[self.classes[side_of(hit)]]
     }
 }
 
