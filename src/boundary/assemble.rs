@@ -101,7 +101,8 @@ impl Drawing {
 
     /// Once contours share their vertices, copies of contours drawn with others are equal too.
     fn drop_copies_and_lines(&mut self, contours: &mut Vec<Contour>) {
-        let mut seen = Seen { duplicates: self.seen.duplicates.take(), ..Seen::new(self.grain) };
+        let mut seen = Seen::new(self.grain);
+        seen.duplicates = self.seen.duplicates.take();
         contours.retain(|c| {
             if is_flat(&c.path, self.grain) {
                 self.defects.extend(c.path.vertices.first().map(|v| Defect::NoArea { at: v.point }));

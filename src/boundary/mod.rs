@@ -19,3 +19,6 @@ mod simple;
 
 pub use curve::{Curve, Source};
 pub use pocket::{Pocket, Pockets};
+
+#[cfg(test)]
+mod tests;
