@@ -9,6 +9,27 @@ use crate::geom::Bounds;
 /// Items of a leaf at most: below it, looking at them is cheaper than more tree.
 const LEAF: usize = 6;
 
+/// Room for the way down: one open node for each level, and items are numbered in 32 bits.
+const STACK: usize = 34;
+
+/// Nodes still to be looked at, without asking for memory: trees are walked millions of times.
+struct Stack {
+    nodes: [Node; STACK],
+    len: usize,
+}
+
+impl Stack {
+    fn push(&mut self, node: Node) {
+        self.nodes[self.len] = node;
+        self.len += 1;
+    }
+
+    fn pop(&mut self) -> Option<Node> {
+        self.len = self.len.checked_sub(1)?;
+        Some(self.nodes[self.len])
+    }
+}
+
 /// A static tree over boxes.
 #[derive(Debug)]
 pub(super) struct Index {
@@ -120,7 +141,7 @@ impl Index {
         cost: impl Fn(&S, Option<usize>, &Bounds) -> Option<f64>,
         mut visit: impl FnMut(&mut S, u32),
     ) {
-        let mut open = vec![self.root()];
+        let mut open = Stack { nodes: [self.root(); STACK], len: 1 };
         while let Some(node) = open.pop() {
             if cost(state, Some(node.id), &self.nodes[node.id]).is_none() {
                 continue;
@@ -136,8 +157,14 @@ impl Index {
             let [low, high] = node.children();
             let of = |n: Node| cost(state, Some(n.id), &self.nodes[n.id]);
             match (of(low), of(high)) {
-                (Some(a), Some(b)) if a <= b => open.extend([high, low]),
-                (Some(_), Some(_)) => open.extend([low, high]),
+                (Some(a), Some(b)) if a <= b => {
+                    open.push(high);
+                    open.push(low);
+                }
+                (Some(_), Some(_)) => {
+                    open.push(low);
+                    open.push(high);
+                }
                 (Some(_), None) => open.push(low),
                 (None, Some(_)) => open.push(high),
                 (None, None) => {}
