@@ -105,6 +105,22 @@ pub enum Defect {
         /// The double point.
         at: Point,
     },
+    /// More crossings than are listed one by one.
+    #[error("contours cross at {count} more places, one of them ({}, {})", .at.x, .at.y)]
+    MoreCrossings {
+        /// How many are not listed.
+        count: usize,
+        /// One of them.
+        at: Point,
+    },
+    /// Loops that should bound one pocket bound another number of them.
+    #[error("the loops bound {count} pockets, the last one at ({}, {})", .at.x, .at.y)]
+    NotOnePocket {
+        /// How many they bound.
+        count: usize,
+        /// A vertex of the last one; the origin when there is none.
+        at: Point,
+    },
     /// A curve with a coordinate that is not finite or too large to calculate with.
     #[error("a curve near ({}, {}) has a coordinate that is not a usable number", .at.x, .at.y)]
     Coordinate {
@@ -127,6 +143,8 @@ impl Defect {
             Defect::Duplicates { at, .. }
             | Defect::Crossing { at }
             | Defect::SelfCrossing { at }
+            | Defect::MoreCrossings { at, .. }
+            | Defect::NotOnePocket { at, .. }
             | Defect::Coordinate { at }
             | Defect::NoArea { at } => *at,
         }
@@ -139,7 +157,8 @@ impl Defect {
                 format!("close the contour in the drawing, or try --join {:.4}", gap * 1.01)
             }
             Defect::Duplicates { .. } => "nothing to do; equal curves count once".into(),
-            Defect::Crossing { .. } | Defect::SelfCrossing { .. } => {
+            Defect::NotOnePocket { .. } => "make one pocket of each outer loop with its islands".into(),
+            Defect::Crossing { .. } | Defect::SelfCrossing { .. } | Defect::MoreCrossings { .. } => {
                 "trim the curves in the drawing so that contours touch at most, or select with --layer".into()
             }
             Defect::Coordinate { .. } => "repair the curve in the drawing".into(),

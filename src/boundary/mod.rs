@@ -1,12 +1,24 @@
 //! From drawn curves to pockets.
 
+mod arrange;
+mod assemble;
+mod chain;
+mod clean;
+mod crossing;
 mod curve;
+mod duplicate;
+mod ends;
+mod fan;
+mod grain;
+mod index;
+mod intersect;
+mod nest;
 mod pocket;
+mod ray;
+mod simple;
 
 pub use curve::{Curve, Source};
 pub use pocket::{Pocket, Pockets};
-#[doc(hidden)]
-pub fn checked(mut v: Vec<crate::ArcSpline>) -> Pocket {
-    let outer = v.remove(0);
-    Pocket::from_checked(outer, v)
-}
+
+#[cfg(test)]
+mod tests;

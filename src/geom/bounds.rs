@@ -64,6 +64,12 @@ impl Bounds {
         self.min.x <= p.x && p.x <= self.max.x && self.min.y <= p.y && p.y <= self.max.y
     }
 
+    /// The place in the box nearest to `p`; infinitely far when the box is around nothing.
+    #[inline]
+    pub fn nearest(&self, p: Point) -> Point {
+        point(p.x.max(self.min.x).min(self.max.x), p.y.max(self.min.y).min(self.max.y))
+    }
+
     /// Whether the box is around nothing.
     pub fn is_empty(&self) -> bool {
         self.min.x > self.max.x

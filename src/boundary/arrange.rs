@@ -1,0 +1,222 @@
+//! Contours that meet get a vertex where they do.
+//!
+//! **Needs** closed contours of clean elements. **Guarantees** that contours have no common places
+//! but common vertices, equal to the last bit, and elements that coincide from end to end. **Does
+//! not** change a contour by more than the round-off.
+//!
+//! **Method.** Elements are filed in a tree in pieces of about the mean length of an element, so
+//! that a long one does not meet every box; there are at most twice as many pieces as elements.
+
+use super::chain::Contour;
+use super::clean::clean;
+use super::ends::cluster;
+use super::grain::Grain;
+use super::index::Index;
+use super::intersect::meet;
+use crate::error::Error;
+use crate::geom::{ArcSpline, Bounds, Element, Point, Vertex};
+
+/// Pairs of elements near each other that are looked at: limit on effort. A drawing in which
+/// contours hardly meet has a few for each element.
+const PAIR_LIMIT: usize = 20_000_000;
+
+/// Gives contours common vertices where they meet. Contours that vanish are left empty.
+pub(super) fn arrange(contours: &mut [Contour], grain: Grain) -> Result<(), Error> {
+    snap(contours, grain);
+    let elements: Vec<Element> = contours.iter().flat_map(|c| c.path.elements()).collect();
+    let mut meetings = meetings(&elements, grain)?;
+    unite(&elements, &mut meetings, grain);
+    meetings.sort_by(|a, b| a.element.cmp(&b.element).then(a.parameter.total_cmp(&b.parameter)));
+    let (mut first, mut rest) = (0, &meetings[..]);
+    for contour in contours {
+        let last = first + contour.path.len();
+        let own = rest.partition_point(|m| (m.element as usize) < last);
+        if own > 0 {
+            contour.path = with_vertices(&contour.path, first, &rest[..own]);
+        }
+        (first, rest) = (last, &rest[own..]);
+    }
+    Ok(())
+}
+
+/// A place inside an element where another one meets it.
+#[derive(Clone, Copy, Debug)]
+struct Meeting {
+    element: u32,
+    parameter: f64,
+    place: Point,
+}
+
+/// Makes vertices that are the same place to round-off equal.
+fn snap(contours: &mut [Contour], grain: Grain) {
+    let vertices = || contours.iter().flat_map(|c| c.path.vertices.iter());
+    let places: Vec<Point> = vertices().map(|v| v.point).collect();
+    let (group_of, groups) = cluster(&places, grain);
+    let mut next = group_of.into_iter();
+    for contour in contours {
+        let mut moved = false;
+        for (vertex, group) in contour.path.vertices.iter_mut().zip(&mut next) {
+            moved |= vertex.point != groups[group as usize];
+            vertex.point = groups[group as usize];
+        }
+        if moved {
+            contour.path = clean(&contour.path, grain);
+        }
+    }
+}
+
+/// All places where elements meet inside at least one of them, once for each of these.
+fn meetings(elements: &[Element], grain: Grain) -> Result<Vec<Meeting>, Error> {
+    let mut found = Vec::new();
+    let mut places = Vec::new();
+    for (i, j) in near_pairs(elements, grain)? {
+        places.clear();
+        meet(&elements[i as usize], &elements[j as usize], grain.same, &mut places);
+        for &place in &places {
+            for element in [i, j] {
+                let e = &elements[element as usize];
+                let parameter = e.parameter(place);
+                if place != e.start && place != e.end && parameter > 0.0 && parameter < 1.0 {
+                    found.push(Meeting { element, parameter, place });
+                }
+            }
+        }
+    }
+    Ok(found)
+}
+
+/// Pairs of elements whose boxes, piece by piece, come nearer than the round-off.
+fn near_pairs(elements: &[Element], grain: Grain) -> Result<Vec<(u32, u32)>, Error> {
+    let mean = elements.iter().map(Element::length).sum::<f64>() / elements.len().max(1) as f64;
+    let mut owners = Vec::with_capacity(2 * elements.len());
+    let mut boxes = Vec::with_capacity(2 * elements.len());
+    for (i, e) in elements.iter().enumerate() {
+        let count = ((e.length() / mean).ceil() as usize).clamp(1, elements.len());
+        for piece in 0..count {
+            let part = |k: usize| k as f64 / count as f64;
+            let piece = if count == 1 { *e } else { e.part(part(piece), part(piece + 1)) };
+            boxes.push(piece.bounds().grown(grain.same));
+            owners.push(i as u32);
+        }
+    }
+    let tree = Index::new(&boxes);
+    let mut pairs = Vec::new();
+    for (piece, &i) in owners.iter().enumerate() {
+        tree.meeting(&boxes[piece], |other| {
+            let j = owners[other as usize];
+            if i < j {
+                pairs.push((i, j));
+            }
+        });
+        if pairs.len() > PAIR_LIMIT {
+            let needed = (pairs.len() / (piece + 1) * owners.len()) as u64;
+            let what = "the search for crossings, in pairs of elements,";
+            return Err(Error::Effort { what, needed, limit: PAIR_LIMIT as u64 });
+        }
+    }
+    pairs.sort_unstable();
+    pairs.dedup();
+    Ok(pairs)
+}
+
+/// Makes places of meetings that are the same to round-off equal, to a vertex where there is one.
+fn unite(elements: &[Element], meetings: &mut [Meeting], grain: Grain) {
+    if meetings.is_empty() {
+        return;
+    }
+    let near = Index::new(&meetings.iter().map(|m| grain.around(m.place)).collect::<Vec<_>>());
+    let mut places: Vec<Point> = Vec::new();
+    for e in elements {
+        let mut wanted = false;
+        near.meeting(&Bounds { min: e.start, max: e.start }, |_| wanted = true);
+        if wanted {
+            places.push(e.start);
+        }
+    }
+    let vertices = places.len();
+    places.extend(meetings.iter().map(|m| m.place));
+    let (group_of, groups) = cluster(&places, grain);
+    for (meeting, &group) in meetings.iter_mut().zip(&group_of[vertices..]) {
+        meeting.place = groups[group as usize];
+    }
+}
+
+/// The path, whose first element has number `first`, cut at some sorted places.
+fn with_vertices(path: &ArcSpline, first: usize, mut meetings: &[Meeting]) -> ArcSpline {
+    let mut vertices = Vec::with_capacity(path.vertices.len() + meetings.len());
+    for (i, element) in path.elements().enumerate() {
+        let own = meetings.partition_point(|m| m.element as usize <= first + i);
+        let (mut at, mut from) = (element.start, 0.0);
+        let mut push = |start: Point, from: f64, to: f64| {
+            let whole = (from, to) == (0.0, 1.0);
+            let bulge = if whole { element.bulge } else { (element.bulge.atan() * (to - from)).tan() };
+            vertices.push(Vertex { point: start, bulge });
+        };
+        for m in &meetings[..own] {
+            if m.place != at && m.place != element.start && m.place != element.end {
+                push(at, from, m.parameter);
+                (at, from) = (m.place, m.parameter);
+            }
+        }
+        push(at, from, 1.0);
+        meetings = &meetings[own..];
+    }
+    ArcSpline { vertices, closed: true }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::point;
+
+    fn arranged(paths: &[ArcSpline]) -> Vec<ArcSpline> {
+        let bounds = paths.iter().fold(Bounds::EMPTY, |b, p| b.union(p.bounds()));
+        let mut contours: Vec<Contour> =
+            paths.iter().enumerate().map(|(rank, p)| Contour { path: p.clone(), rank }).collect();
+        arrange(&mut contours, Grain::of(&bounds)).expect("there are few pairs");
+        contours.into_iter().map(|c| c.path).collect()
+    }
+
+    fn square(x: f64, y: f64, side: f64) -> ArcSpline {
+        ArcSpline::closed([(x, y, 0.0), (x + side, y, 0.0), (x + side, y + side, 0.0), (x, y + side, 0.0)])
+    }
+
+    fn has(path: &ArcSpline, p: Point) -> bool {
+        path.vertices.iter().any(|v| v.point == p)
+    }
+
+    #[test]
+    fn a_corner_on_a_side_becomes_a_vertex_of_it() {
+        let diamond = ArcSpline::closed([(4.0, 1.3, 0.0), (5.0, 0.3, 0.0), (6.0, 1.3, 0.0), (5.0, 2.3, 0.0)]);
+        let both = arranged(&[square(0.0, 0.0, 4.0), diamond.clone()]);
+        assert_eq!(both[0].len(), 5);
+        assert!(has(&both[0], point(4.0, 1.3)));
+        assert_eq!(both[1], diamond);
+    }
+
+    #[test]
+    fn circles_that_touch_share_a_vertex() {
+        let (a, b) = (ArcSpline::circle(point(0.3, 0.7), 0.4), ArcSpline::circle(point(0.9, 1.5), 0.6));
+        let both = arranged(&[a.clone(), b]);
+        let common: Vec<_> = both[0].vertices.iter().filter(|v| has(&both[1], v.point)).collect();
+        assert_eq!(common.len(), 1);
+        assert!(common[0].point.distance(point(0.54, 1.02)) < 1e-15);
+        assert!((both[0].area() - a.area()).abs() < 1e-15);
+    }
+
+    #[test]
+    fn three_circles_through_one_place_have_it_in_common() {
+        let circles = [0.1, 0.2, 0.3].map(|r| ArcSpline::circle(point(0.6 * r, 0.8 * r), r));
+        let all = arranged(&circles);
+        assert!(all.iter().all(|c| c.len() == 3));
+        let at = all[0].vertices.iter().find(|v| v.point.distance(point(0.0, 0.0)) < 1e-15);
+        let at = at.expect("they touch in the origin").point;
+        assert!(all.iter().all(|c| has(c, at)));
+    }
+
+    #[test]
+    fn contours_apart_stay_as_they_are() {
+        let apart = [square(0.0, 0.0, 1.0), square(3.0, 0.0, 1.0), ArcSpline::circle(point(0.5, 0.5), 0.2)];
+        assert_eq!(arranged(&apart), apart);
+    }
+}

@@ -1,0 +1,30 @@
+//! The round-off of a drawing: the one length below which its places cannot be told apart.
+
+use crate::geom::{Bounds, Point};
+
+/// Places nearer than this many units in the last place of the largest coordinate are one place.
+/// The end of an arc computed from center, radius and angle in degrees carries up to 6 of them,
+/// the foot of a perpendicular on an element with such ends as many again.
+const ULPS: f64 = 16.0;
+
+/// Round-off of the places of one drawing, in job units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Grain {
+    /// Places nearer than this are one place, and curves nearer than this touch.
+    pub same: f64,
+    /// Half a unit in the last place of the largest coordinate.
+    pub ulp: f64,
+}
+
+impl Grain {
+    /// The round-off of a drawing within a box.
+    pub fn of(bounds: &Bounds) -> Grain {
+        let ulp = f64::EPSILON * bounds.magnitude();
+        Grain { same: ULPS * ulp, ulp: 0.5 * ulp }
+    }
+
+    /// The box of all places that cannot be told from `p`.
+    pub fn around(&self, p: Point) -> Bounds {
+        Bounds { min: p, max: p }.grown(self.same)
+    }
+}
