@@ -207,10 +207,10 @@ impl fmt::Display for Warning {
                 write!(f, " skipped: {reason}")
             }
             Warning::LayerSkipped { layer, state, count } => {
-                write!(f, "layer `{layer}` is {state}: {count} entities skipped")
+                write!(f, "layer `{layer}` is {state}: {count} skipped")
             }
-            Warning::InvisibleSkipped { count } => write!(f, "{count} invisible entities skipped"),
-            Warning::PaperSpaceSkipped { count } => write!(f, "{count} entities of paper space skipped"),
+            Warning::InvisibleSkipped { count } => write!(f, "invisible entities: {count} skipped"),
+            Warning::PaperSpaceSkipped { count } => write!(f, "entities of paper space: {count} skipped"),
             Warning::NoSuchLayer { pattern, .. } => write!(f, "no entity lies on a layer `{pattern}`"),
             Warning::Truncated => write!(f, "the file ends without its end mark"),
             Warning::UnitAssumed { unit, flagged: true, .. } => {
