@@ -6,9 +6,9 @@
 #[allow(dead_code)]
 mod samples;
 
+use medial::io::DrawingUnit;
 use medial::io::dxf::{Drawing, ReadOptions, read, read_bytes};
-use medial::io::{DrawingUnit, Units};
-use medial::{ArcSpline, Error};
+use medial::{ArcSpline, Error, Units};
 use std::path::Path;
 
 fn sample(name: &str) -> Drawing {

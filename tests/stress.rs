@@ -26,6 +26,11 @@ fn every_random_axis_passes_its_check() {
     for kind in shapes::KINDS {
         let t = std::time::Instant::now();
         let (sites, failures) = run(kind, 1..51, 500);
-        println!("{kind}: {sites} sites, {} failures {:?} {:?}", failures.len(), t.elapsed(), &failures[..failures.len().min(4)]);
+        println!(
+            "{kind}: {sites} sites, {} failures {:?} {:?}",
+            failures.len(),
+            t.elapsed(),
+            &failures[..failures.len().min(4)]
+        );
     }
 }

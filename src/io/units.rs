@@ -3,32 +3,12 @@
 //! A reader converts every length to the unit of the job at the door; behind it nothing is
 //! converted any more.
 
-use crate::tolerance::Tolerance;
+use crate::tolerance::Units;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 
-/// The unit of everything in a job: lengths of the drawing, of the options and of the output.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Units {
-    /// Millimeters.
-    #[default]
-    #[serde(rename = "mm")]
-    Mm,
-    /// Inches.
-    #[serde(rename = "in")]
-    Inch,
-}
-
 impl Units {
-    /// The two lengths a user may choose, by default.
-    pub fn tolerance(self) -> Tolerance {
-        match self {
-            Units::Mm => Tolerance::MM,
-            Units::Inch => Tolerance::INCH,
-        }
-    }
-
     /// Reads a length as a user writes it, in this unit: `0.5` is taken as it is, `0.5mm` and
     /// `0.02in` are converted. `None` for anything else.
     pub fn length(self, text: &str) -> Option<f64> {

@@ -1,8 +1,9 @@
 //! What a user has to know about a drawing or a job although it went on.
 
-use super::{DrawingUnit, Units};
+use super::DrawingUnit;
 use crate::error::Defect;
 use crate::geom::Point;
+use crate::tolerance::Units;
 use serde::ser::{Serialize, SerializeStruct, Serializer};
 use std::fmt;
 

@@ -35,9 +35,8 @@ impl Random {
 }
 
 /// The kinds of shapes; see [`make`].
-pub const KINDS: [&str; 10] = [
-    "smooth", "wavy", "fingers", "coast", "isles", "hexagons", "gear", "convex", "spiral", "symmetric",
-];
+pub const KINDS: [&str; 10] =
+    ["smooth", "wavy", "fingers", "coast", "isles", "hexagons", "gear", "convex", "spiral", "symmetric"];
 
 /// The loops of a shape with about `size` elements, the outer one first and counter-clockwise.
 pub fn make(kind: &str, size: usize, seed: u64) -> Vec<ArcSpline> {
@@ -187,7 +186,9 @@ fn isles(r: &mut Random, count: usize, per: usize, polygons: bool) -> Vec<ArcSpl
             let center = center + Vector { x: r.unit() - 0.5, y: r.unit() - 0.5 } * (0.2 * cell);
             let radius = cell * r.between(0.15, 0.3);
             if polygons {
-                let corner = |k: usize, radius: f64| center + Vector::from_angle(-TAU * k as f64 / per as f64) * radius;
+                let corner = |k: usize, radius: f64| {
+                    center + Vector::from_angle(-TAU * k as f64 / per as f64) * radius
+                };
                 polygon((0..per).map(|k| corner(k, radius * r.between(0.7, 1.0))).collect::<Vec<_>>())
             } else {
                 let waves = [(2.0, 0.1 * r.unit(), TAU * r.unit()), (3.0, 0.08 * r.unit(), TAU * r.unit())];
@@ -244,12 +245,17 @@ fn symmetric(size: usize, r: &mut Random) -> Vec<ArcSpline> {
     let m = (((size / 5) as f64).sqrt() as usize).max(1);
     let side = 20.0 * m as f64 + 10.0;
     let mut near = |x: f64| x * (1.0 + (r.next() % 9) as f64 * f64::EPSILON - 4.0 * f64::EPSILON);
-    let mut loops = vec![polygon([(0.0, 0.0), (side, 0.0), (side, side), (0.0, side)].map(|(x, y)| point(near(x), near(y))))];
+    let mut loops = vec![polygon(
+        [(0.0, 0.0), (side, 0.0), (side, side), (0.0, side)].map(|(x, y)| point(near(x), near(y))),
+    )];
     for i in 0..m * m {
         let (x, y) = (20.0 * (i / m) as f64 + 15.0, 20.0 * (i % m) as f64 + 15.0);
         loops.push(match i % 3 {
             0 => ArcSpline::circle(point(near(x), near(y)), near(5.0)).reversed(),
-            1 => polygon([(-5.0, -5.0), (-5.0, 5.0), (5.0, 5.0), (5.0, -5.0)].map(|(a, b)| point(near(x + a), near(y + b)))),
+            1 => polygon(
+                [(-5.0, -5.0), (-5.0, 5.0), (5.0, 5.0), (5.0, -5.0)]
+                    .map(|(a, b)| point(near(x + a), near(y + b))),
+            ),
             _ => {
                 let half = near(5.0);
                 ArcSpline::closed([(x - half, y, -1.0), (x + half, y, -(PI / 4.0).tan())])

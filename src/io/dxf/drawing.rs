@@ -1,7 +1,8 @@
 //! What is read from a file, and what a caller may ask for.
 
 use crate::boundary::Curve;
-use crate::io::{DrawingUnit, Units, Warning};
+use crate::io::{DrawingUnit, Warning};
+use crate::tolerance::Units;
 use serde::Serialize;
 
 /// The curves of a drawing.
