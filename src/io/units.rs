@@ -1,4 +1,4 @@
-//! The unit of a job and the unit that a drawing is drawn in.
+//! The unit that a drawing is drawn in, and the way from it to the unit of the job.
 //!
 //! A reader converts every length to the unit of the job at the door; behind it nothing is
 //! converted any more.
@@ -7,44 +7,6 @@ use crate::tolerance::Units;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
-
-impl Units {
-    /// Reads a length as a user writes it, in this unit: `0.5` is taken as it is, `0.5mm` and
-    /// `0.02in` are converted. `None` for anything else.
-    pub fn length(self, text: &str) -> Option<f64> {
-        let text = text.trim();
-        let (number, unit) = if let Some(number) = text.strip_suffix("mm") {
-            (number, DrawingUnit::Millimeter)
-        } else if let Some(number) = text.strip_suffix("in").or_else(|| text.strip_suffix('"')) {
-            (number, DrawingUnit::Inch)
-        } else {
-            (text, self.into())
-        };
-        let number: f64 = number.trim_end().parse().ok()?;
-        Some(Scale::new(unit, self)?.length(number))
-    }
-}
-
-impl fmt::Display for Units {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str(match self {
-            Units::Mm => "mm",
-            Units::Inch => "in",
-        })
-    }
-}
-
-impl FromStr for Units {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Units, String> {
-        match text.to_ascii_lowercase().as_str() {
-            "mm" | "millimeter" | "millimeters" => Ok(Units::Mm),
-            "in" | "inch" | "inches" => Ok(Units::Inch),
-            _ => Err(format!("`{text}` is not a unit of a job: mm or in")),
-        }
-    }
-}
 
 /// A unit that a drawing may claim.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -269,17 +231,7 @@ mod tests {
         for (unit, name) in NAMES {
             assert_eq!(name.parse(), Ok(unit));
         }
-        assert_eq!("Inches".parse(), Ok(Units::Inch));
+        assert_eq!("Inches".parse(), Ok(Inch));
         assert!("furlong".parse::<DrawingUnit>().unwrap_err().contains("mm"));
-    }
-
-    #[test]
-    fn a_length_of_the_command_line_may_name_its_unit() {
-        assert_eq!(Units::Mm.length("0.5"), Some(0.5));
-        assert_eq!(Units::Mm.length("0.02in"), Some(0.508));
-        assert_eq!(Units::Inch.length("0.5"), Some(0.5));
-        assert_eq!(Units::Inch.length("12.7 mm"), Some(0.5));
-        assert_eq!(Units::Mm.length("wide"), None);
-        assert_eq!(Units::Mm.length(""), None);
     }
 }

@@ -1,4 +1,5 @@
-//! What a user has to know about a drawing or a job although it went on.
+//! What a user has to know about a drawing although it was read, and about a file although it was
+//! written. What the planner of the path has to say is in `toolpath`.
 
 use super::DrawingUnit;
 use crate::error::Defect;
@@ -80,40 +81,6 @@ pub enum Warning {
         /// A place of the contour.
         at: Point,
     },
-    /// A pocket that the tool does not fit into.
-    ToolTooLarge {
-        /// Where the largest tool fits.
-        at: Point,
-        /// Diameter of the tool.
-        tool: f64,
-        /// Diameter of the largest tool that fits.
-        largest: f64,
-    },
-    /// A part of a pocket that the tool does not reach.
-    Unreachable {
-        /// In it, or at its neck.
-        at: Point,
-        /// Its area.
-        area: f64,
-        /// Width of the narrowest neck that keeps the tool out, if it is a neck.
-        neck: Option<f64>,
-    },
-    /// The step was made smaller so that nothing stays uncut.
-    StepReduced {
-        /// What was asked for.
-        from: f64,
-        /// What was taken.
-        to: f64,
-    },
-    /// The tool enters in another way than asked for.
-    EntryFallenBack {
-        /// Where.
-        at: Point,
-        /// What was asked for.
-        from: &'static str,
-        /// What was taken.
-        to: &'static str,
-    },
     /// Arcs too short to be written with the decimals of the program.
     ArcsDropped {
         /// How many.
@@ -137,10 +104,6 @@ impl Warning {
             Warning::UnitAssumed { .. } => "unit-assumed",
             Warning::Defect(defect) => defect_kind(defect),
             Warning::OutlineOfPart { .. } => "outline-of-part",
-            Warning::ToolTooLarge { .. } => "tool-too-large",
-            Warning::Unreachable { .. } => "unreachable",
-            Warning::StepReduced { .. } => "step-reduced",
-            Warning::EntryFallenBack { .. } => "entry-fallen-back",
             Warning::ArcsDropped { .. } => "arcs-dropped",
         }
     }
@@ -150,11 +113,7 @@ impl Warning {
         match self {
             Warning::EntitySkipped { at, .. } => *at,
             Warning::Defect(defect) => Some(defect.at()),
-            Warning::OutlineOfPart { at }
-            | Warning::ToolTooLarge { at, .. }
-            | Warning::Unreachable { at, .. }
-            | Warning::EntryFallenBack { at, .. }
-            | Warning::ArcsDropped { at, .. } => Some(*at),
+            Warning::OutlineOfPart { at } | Warning::ArcsDropped { at, .. } => Some(*at),
             _ => None,
         }
     }
@@ -180,13 +139,6 @@ impl Warning {
             Warning::OutlineOfPart { .. } => {
                 "if it is the outline of the part and not a pocket: --skip-outer".into()
             }
-            Warning::ToolTooLarge { largest, .. } => format!("use a tool of at most {largest:.4}"),
-            Warning::Unreachable { neck: Some(neck), .. } => {
-                format!("a tool of at most {neck:.4} passes the neck")
-            }
-            Warning::Unreachable { .. } => "use a smaller tool to reach it".into(),
-            Warning::StepReduced { to, .. } => format!("nothing to do, or ask for --step {to:.4}"),
-            Warning::EntryFallenBack { .. } => "nothing to do, if the tool can enter like that".into(),
             Warning::ArcsDropped { .. } => "nothing to do, or ask for more --decimals".into(),
         }
     }
@@ -223,21 +175,6 @@ impl fmt::Display for Warning {
             Warning::Defect(defect) => write!(f, "{defect}"),
             Warning::OutlineOfPart { .. } => {
                 write!(f, "one outermost contour holds nearly everything; it is cleared as a pocket")
-            }
-            Warning::ToolTooLarge { tool, largest, .. } => {
-                write!(
-                    f,
-                    "the tool of {tool:.4} does not fit into a pocket; the largest that does is {largest:.4}"
-                )
-            }
-            Warning::Unreachable { area, .. } => {
-                write!(f, "an area of {area:.4} cannot be reached by the tool")
-            }
-            Warning::StepReduced { from, to } => {
-                write!(f, "step reduced from {from:.4} to {to:.4} so that nothing stays uncut")
-            }
-            Warning::EntryFallenBack { from, to, .. } => {
-                write!(f, "no room to enter by {from}; the tool enters by {to}")
             }
             Warning::ArcsDropped { count, .. } => {
                 write!(f, "{count} arcs are shorter than the last decimal and were dropped")
