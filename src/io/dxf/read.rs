@@ -14,8 +14,8 @@ use ::dxf::entities::EntityType;
 use std::io::Cursor;
 use std::path::Path;
 
-/// Largest file that is read, in bytes: the parser needs about fourteen times as much memory.
-const MAX_BYTES: u64 = 1 << 30;
+/// Largest file that is read, in bytes: the parser needs about twenty times as much memory.
+const MAX_BYTES: u64 = 1 << 29;
 
 /// How a binary DXF begins.
 const BINARY: &[u8] = b"AutoCAD Binary DXF";
@@ -25,7 +25,7 @@ const BINARY: &[u8] = b"AutoCAD Binary DXF";
 /// # Errors
 ///
 /// [`Error::File`] if the file cannot be read, [`Error::NotADrawing`] if it is no DXF or is in
-/// a unit that no part is drawn in, [`Error::Effort`] if it is larger than a gigabyte.
+/// a unit that no part is drawn in, [`Error::Effort`] if it is larger than half a gigabyte.
 pub fn read(path: &Path, options: &ReadOptions) -> Result<Drawing, Error> {
     let name = path.display().to_string();
     let failed = |cause| Error::File { action: "read", path: name.clone(), cause };
@@ -51,14 +51,13 @@ pub fn read_bytes(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<Dra
     if let Some(reason) = other_format(bytes) {
         return Err(no_drawing(reason.into()));
     }
-    let (contents, shapes) = if bytes.starts_with(BINARY) {
+    let (contents, parsed, whose) = if bytes.starts_with(BINARY) {
         let parsed = parse(bytes).map_err(no_drawing)?;
-        let contents = binary::contents(&parsed);
-        (contents, parsed.entities().map(|e| Some(e.specific.clone())).collect())
+        (binary::contents(&parsed), parsed, Whose::InOrder)
     } else {
-        let contents = text_contents(bytes).map_err(no_drawing)?;
-        let shapes = shapes(&contents).map_err(no_drawing)?;
-        (contents, shapes)
+        let mut contents = text_contents(bytes).map_err(no_drawing)?;
+        let parsed = parse(&std::mem::take(&mut contents.geometry)).map_err(no_drawing)?;
+        (contents, parsed, Whose::ByHandle)
     };
     let unit = Unit::of(&contents, options);
     let units = options.units.or(unit.unit.job()).unwrap_or_default();
@@ -69,22 +68,24 @@ pub fn read_bytes(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<Dra
     if !contents.ended {
         warnings.push(Warning::Truncated);
     }
-    let (curves, met) = curves(&contents, &shapes, scale, options);
+    let (curves, met) = curves(&contents, shapes(&parsed, whose), scale, options);
     warnings.extend(met);
     Ok(Drawing { name: name.to_owned(), units, curves, warnings })
 }
 
 /// The curves of all entities that take part, and what there is to say about the others.
-fn curves(
+fn curves<'a>(
     contents: &Contents,
-    shapes: &[Option<EntityType>],
+    shapes: impl Iterator<Item = (usize, &'a EntityType)>,
     scale: Scale,
     options: &ReadOptions,
 ) -> (Vec<Curve>, Vec<Warning>) {
     let mut selection = Selection::new(options, contents);
     let mut skipped = Skipped::default();
     let mut curves = Vec::new();
-    for (record, entity) in contents.records.iter().zip(shapes) {
+    let mut shapes = shapes.peekable();
+    for (index, record) in contents.records.iter().enumerate() {
+        let entity = shapes.next_if(|&(whose, _)| whose == index).map(|(_, entity)| entity);
         if !selection.takes(record) {
             continue;
         }
@@ -125,16 +126,24 @@ fn text_contents(bytes: &[u8]) -> Result<Contents, String> {
     if contents.sections || contents.ended { Ok(contents) } else { Err("it has no section of a DXF".into()) }
 }
 
-/// The parsed geometry of each record.
-fn shapes(contents: &Contents) -> Result<Vec<Option<EntityType>>, String> {
-    let mut shapes = vec![None; contents.records.len()];
-    for entity in parse(&contents.geometry)?.entities() {
-        let index = usize::try_from(entity.common.handle.0).ok().and_then(|handle| handle.checked_sub(1));
-        if let Some(place) = index.and_then(|index| shapes.get_mut(index)) {
-            *place = Some(entity.specific.clone());
-        }
-    }
-    Ok(shapes)
+/// Which record a parsed entity belongs to.
+#[derive(Clone, Copy)]
+enum Whose {
+    /// The one at the same place.
+    InOrder,
+    /// The one that its handle is the index of, plus 1.
+    ByHandle,
+}
+
+/// The parsed entities, each with the index of its record.
+fn shapes(parsed: &::dxf::Drawing, whose: Whose) -> impl Iterator<Item = (usize, &EntityType)> {
+    parsed.entities().enumerate().map(move |(place, entity)| {
+        let index = match whose {
+            Whose::InOrder => place,
+            Whose::ByHandle => usize::try_from(entity.common.handle.0).unwrap_or(0).wrapping_sub(1),
+        };
+        (index, &entity.specific)
+    })
 }
 
 fn parse(bytes: &[u8]) -> Result<::dxf::Drawing, String> {
