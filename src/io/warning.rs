@@ -1,0 +1,260 @@
+//! What a user has to know about a drawing although it was read, and about a file although it was
+//! written. What the planner of the path has to say is in `toolpath`.
+
+use super::DrawingUnit;
+use crate::error::Defect;
+use crate::geom::Point;
+use crate::tolerance::Units;
+use serde::ser::{Serialize, SerializeStruct, Serializer};
+use std::fmt;
+
+/// Something that was left out, assumed or changed, with its place and its cure. Lengths are in
+/// the unit of the job.
+///
+/// Serialized as `{"kind", "message", "at", "help"}`.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Warning {
+    /// Entities of a kind that is not read.
+    NotRead {
+        /// Kind of entity, as the format calls it.
+        entity: String,
+        /// How many.
+        count: usize,
+        /// Whether it may be part of an outline: a curve, not a text.
+        outline: bool,
+    },
+    /// Entities of a known kind that hold nothing usable.
+    EntitySkipped {
+        /// Kind of entity.
+        entity: String,
+        /// Handle of the first one, where it has one.
+        handle: Option<u64>,
+        /// What is wrong with it.
+        reason: String,
+        /// How many have the same fault.
+        count: usize,
+        /// A place of the first one, where one is known.
+        at: Option<Point>,
+    },
+    /// Entities on a layer that is off or frozen.
+    LayerSkipped {
+        /// Name of the layer.
+        layer: String,
+        /// `off` or `frozen`.
+        state: &'static str,
+        /// How many entities lie on it.
+        count: usize,
+    },
+    /// Entities that the drawing marks as invisible.
+    InvisibleSkipped {
+        /// How many.
+        count: usize,
+    },
+    /// Entities of a layout, not of the part.
+    PaperSpaceSkipped {
+        /// How many.
+        count: usize,
+    },
+    /// A layer was asked for that the drawing does not have.
+    NoSuchLayer {
+        /// What was asked for.
+        pattern: String,
+        /// The layers with entities on them.
+        layers: Vec<String>,
+    },
+    /// The file breaks off.
+    Truncated,
+    /// The drawing does not say its unit.
+    UnitAssumed {
+        /// The unit taken for it.
+        unit: DrawingUnit,
+        /// The unit of the job.
+        job: Units,
+        /// Whether a flag of the drawing speaks for it.
+        flagged: bool,
+    },
+    /// A fault in the contours.
+    Defect(Defect),
+    /// One outermost contour holds nearly everything: perhaps the outline of the part.
+    OutlineOfPart {
+        /// A place of the contour.
+        at: Point,
+    },
+    /// Arcs too short to be written with the decimals of the program.
+    ArcsDropped {
+        /// How many.
+        count: usize,
+        /// Where one of them is.
+        at: Point,
+    },
+}
+
+impl Warning {
+    /// Its name in reports.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Warning::NotRead { .. } => "not-read",
+            Warning::EntitySkipped { .. } => "entity-skipped",
+            Warning::LayerSkipped { .. } => "layer-skipped",
+            Warning::InvisibleSkipped { .. } => "invisible-skipped",
+            Warning::PaperSpaceSkipped { .. } => "paper-space-skipped",
+            Warning::NoSuchLayer { .. } => "no-such-layer",
+            Warning::Truncated => "truncated",
+            Warning::UnitAssumed { .. } => "unit-assumed",
+            Warning::Defect(defect) => defect_kind(defect),
+            Warning::OutlineOfPart { .. } => "outline-of-part",
+            Warning::ArcsDropped { .. } => "arcs-dropped",
+        }
+    }
+
+    /// Where in the drawing, if it has one place.
+    pub fn at(&self) -> Option<Point> {
+        match self {
+            Warning::EntitySkipped { at, .. } => *at,
+            Warning::Defect(defect) => Some(defect.at()),
+            Warning::OutlineOfPart { at } | Warning::ArcsDropped { at, .. } => Some(*at),
+            _ => None,
+        }
+    }
+
+    /// What to do about it.
+    pub fn help(&self) -> String {
+        match self {
+            Warning::NotRead { outline: true, .. } => {
+                "explode blocks and convert curves to polylines or arcs in the drawing program".into()
+            }
+            Warning::NotRead { .. } => "nothing to do, if it is no part of an outline".into(),
+            Warning::EntitySkipped { .. } => "repair or delete it in the drawing".into(),
+            Warning::LayerSkipped { .. } => "turn the layer on in the drawing, or use --hidden".into(),
+            Warning::InvisibleSkipped { .. } => "make them visible in the drawing, or use --hidden".into(),
+            Warning::PaperSpaceSkipped { .. } => "nothing to do, if the part is drawn in model space".into(),
+            Warning::NoSuchLayer { layers, .. } => format!("layers with entities: {}", layers.join(", ")),
+            Warning::Truncated => "save the drawing again: its end is missing".into(),
+            Warning::UnitAssumed { unit, .. } => {
+                let other = if *unit == DrawingUnit::Inch { "mm" } else { "in" };
+                format!("if that is wrong: --dxf-units {other}")
+            }
+            Warning::Defect(defect) => defect.help(),
+            Warning::OutlineOfPart { .. } => {
+                "if it is the outline of the part and not a pocket: --skip-outer".into()
+            }
+            Warning::ArcsDropped { .. } => "nothing to do, or ask for more --decimals".into(),
+        }
+    }
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Warning::NotRead { entity, count, outline: true } => write!(f, "{entity}: {count} not read yet"),
+            Warning::NotRead { entity, count, .. } => write!(f, "{entity}: {count} skipped, no outline"),
+            Warning::EntitySkipped { entity, handle, reason, count, .. } => {
+                write!(f, "{entity}")?;
+                if let Some(handle) = handle {
+                    write!(f, " {handle:X}")?;
+                }
+                if *count > 1 {
+                    write!(f, " and {} more", count - 1)?;
+                }
+                write!(f, " skipped: {reason}")
+            }
+            Warning::LayerSkipped { layer, state, count } => {
+                write!(f, "layer `{layer}` is {state}: {count} skipped")
+            }
+            Warning::InvisibleSkipped { count } => write!(f, "invisible entities: {count} skipped"),
+            Warning::PaperSpaceSkipped { count } => write!(f, "entities of paper space: {count} skipped"),
+            Warning::NoSuchLayer { pattern, .. } => write!(f, "no entity lies on a layer `{pattern}`"),
+            Warning::Truncated => write!(f, "the file ends without its end mark"),
+            Warning::UnitAssumed { unit, flagged: true, .. } => {
+                write!(f, "the drawing does not say its unit; {unit} assumed after its measurement flag")
+            }
+            Warning::UnitAssumed { unit, .. } => {
+                write!(f, "the drawing does not say its unit; {unit} assumed")
+            }
+            Warning::Defect(defect) => write!(f, "{defect}"),
+            Warning::OutlineOfPart { .. } => {
+                write!(f, "one outermost contour holds nearly everything; it is cleared as a pocket")
+            }
+            Warning::ArcsDropped { count, .. } => {
+                write!(f, "{count} arcs are shorter than the last decimal and were dropped")
+            }
+        }
+    }
+}
+
+/// The name of a defect in reports.
+fn defect_kind(defect: &Defect) -> &'static str {
+    match defect {
+        Defect::OpenContour { .. } => "open-contour",
+        Defect::Duplicates { .. } => "duplicates",
+        Defect::Crossing { .. } => "crossing",
+        Defect::SelfCrossing { .. } => "self-crossing",
+        Defect::Coordinate { .. } => "coordinate",
+        Defect::NoArea { .. } => "no-area",
+    }
+}
+
+impl From<Defect> for Warning {
+    fn from(defect: Defect) -> Warning {
+        Warning::Defect(defect)
+    }
+}
+
+impl Serialize for Warning {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut fields = serializer.serialize_struct("Warning", 4)?;
+        fields.serialize_field("kind", self.kind())?;
+        fields.serialize_field("message", &self.to_string())?;
+        fields.serialize_field("at", &self.at())?;
+        fields.serialize_field("help", &self.help())?;
+        fields.end()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::point;
+
+    #[test]
+    fn a_defect_is_a_warning_with_its_place_and_cure() {
+        let open =
+            Defect::OpenContour { start: point(1.0, 2.0), end: point(1.0, 2.5), gap: 0.5, inside: false };
+        let warning = Warning::from(open.clone());
+        assert_eq!((warning.kind(), warning.at()), ("open-contour", Some(point(1.0, 2.0))));
+        assert_eq!((warning.to_string(), warning.help()), (open.to_string(), open.help()));
+    }
+
+    #[test]
+    fn every_defect_has_the_name_it_is_serialized_with() {
+        let at = point(0.0, 0.0);
+        let open = Defect::OpenContour { start: at, end: at, gap: 0.0, inside: true };
+        let others = [
+            Defect::Duplicates { count: 1, at },
+            Defect::Crossing { at },
+            Defect::SelfCrossing { at },
+            Defect::Coordinate { at },
+            Defect::NoArea { at },
+        ];
+        for defect in others.into_iter().chain([open]) {
+            assert_eq!(serde_json::to_value(&defect).unwrap()["kind"], defect_kind(&defect));
+        }
+    }
+
+    #[test]
+    fn a_report_holds_kind_message_place_and_help() {
+        let warning = Warning::EntitySkipped {
+            entity: "CIRCLE".into(),
+            handle: Some(0x2A),
+            reason: "its radius is 0".into(),
+            count: 3,
+            at: Some(point(4.0, 5.5)),
+        };
+        assert_eq!(warning.to_string(), "CIRCLE 2A and 2 more skipped: its radius is 0");
+        let json = serde_json::to_value(&warning).unwrap();
+        assert_eq!(json["kind"], "entity-skipped");
+        assert_eq!(json["at"], serde_json::json!([4.0, 5.5]));
+        assert!(serde_json::to_value(Warning::Truncated).unwrap()["at"].is_null());
+    }
+}
