@@ -19,4 +19,4 @@ pub use error::{Defect, Error};
 pub use geom::{ArcSpline, Bounds, Element, Point, Vector, Vertex, point, vector};
 pub use mat::{Disk, Mat};
 pub use offset::Level;
-pub use tolerance::Tolerance;
+pub use tolerance::{Tolerance, Units};

@@ -26,3 +26,15 @@ impl Default for Tolerance {
         Tolerance::MM
     }
 }
+
+/// Unit of all lengths of a job.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Units {
+    /// Millimeters.
+    #[default]
+    #[serde(rename = "mm")]
+    Mm,
+    /// Inches.
+    #[serde(rename = "in")]
+    Inch,
+}
