@@ -5,6 +5,7 @@ use super::job::MAX_HEIGHTS;
 use super::plan::{IsClear, MAX_MOVES, Planner};
 use super::{Job, Move, Warning};
 use crate::error::Error;
+use crate::geom::Element;
 use crate::mat::{Disk, Mat};
 use crate::offset::Level;
 use rayon::prelude::*;
@@ -56,21 +57,40 @@ impl Job {
     /// [`Error::Parameter`] for a number out of its range, [`Error::Effort`] when levels or moves
     /// are too many, [`Error::NothingToMachine`] when the tool fits nowhere.
     pub fn path(&self, mats: &[Mat]) -> Result<Path, Error> {
+        let levels = mats.iter().map(|mat| self.levels(mat)).collect::<Result<Vec<_>, _>>()?;
+        self.path_along(mats, levels)
+    }
+
+    /// The level sets of a pocket that the path follows, outermost first; none when the tool fits
+    /// nowhere.
+    ///
+    /// # Errors
+    /// [`Error::Parameter`] for a number out of its range, [`Error::Effort`] when they are too many.
+    pub fn levels(&self, mat: &Mat) -> Result<Vec<Level>, Error> {
+        self.validate()?;
+        self.levels_up_to(mat.largest_disk().radius, &|d| mat.level(d))
+    }
+
+    /// Plans the path along [levels](Job::levels) that are known already, those of each pocket.
+    ///
+    /// # Errors
+    /// As for [`Job::path`].
+    pub fn path_along(&self, mats: &[Mat], levels: Vec<Vec<Level>>) -> Result<Path, Error> {
         self.validate()?;
         let mut path = Path::default();
         self.note_step(&mut path);
         let mut planner = Planner::new(self);
-        for (pocket, mat) in mats.iter().enumerate() {
-            let largest = mat.largest_disk();
-            let levels = self.levels(largest.radius, &|d| mat.level(d))?;
+        for (pocket, (mat, levels)) in mats.iter().zip(levels).enumerate() {
+            let (largest, neck) = (mat.largest_disk(), mat.narrowest_neck());
             let mut own = PocketPath {
                 largest_tool: 2.0 * (largest.radius - self.stock),
                 unreachable_area: mat.unreachable_area(self.wall_distance()),
-                narrowest_neck: mat.narrowest_neck().map(|d| 2.0 * d.radius),
+                narrowest_neck: neck.map(|d| 2.0 * d.radius),
+                machined: !levels.is_empty(),
                 ..PocketPath::default()
             };
-            self.note_room(&mut path, pocket, &own, largest, mat.narrowest_neck(), levels.is_empty());
-            let is_clear = |link: &crate::geom::Element, radius: f64| mat.is_clear(link, radius);
+            self.note_room(&mut path, pocket, &own, largest, neck);
+            let is_clear = |link: &Element, radius: f64| mat.is_clear(link, radius);
             self.cut(&mut planner, &mut own, levels, &is_clear)?;
             path.pockets.push(own);
         }
@@ -85,7 +105,6 @@ impl Job {
         clear: &IsClear,
     ) -> Result<(), Error> {
         let before = planner.cutter.moves.len();
-        own.machined = !levels.is_empty();
         if self.tool > 0.0 && own.machined {
             own.passes = planner.pocket(&levels, clear)?;
         }
@@ -133,7 +152,7 @@ impl Job {
     }
 
     /// The level sets up to the largest radius; the last one may be a ridge alone.
-    fn levels(&self, largest: f64, level: &(dyn Fn(f64) -> Level + Sync)) -> Result<Vec<Level>, Error> {
+    fn levels_up_to(&self, largest: f64, level: &(dyn Fn(f64) -> Level + Sync)) -> Result<Vec<Level>, Error> {
         // One level more than fits, as a level may be left at the largest radius itself.
         let count = ((largest - self.distance(0)) / self.used_step()).max(0.0).ceil() + 2.0;
         if count > MAX_LEVELS as f64 {
@@ -180,16 +199,8 @@ impl Job {
         }
     }
 
-    fn note_room(
-        &self,
-        path: &mut Path,
-        pocket: usize,
-        own: &PocketPath,
-        largest: Disk,
-        neck: Option<Disk>,
-        nothing: bool,
-    ) {
-        if nothing {
+    fn note_room(&self, path: &mut Path, pocket: usize, own: &PocketPath, largest: Disk, neck: Option<Disk>) {
+        if !own.machined {
             let warning = Warning::ToolTooLarge { pocket, at: largest.center, largest: own.largest_tool };
             path.warnings.push(warning);
         } else if let Some(neck) = neck
