@@ -152,7 +152,11 @@ impl Job {
     }
 
     /// The level sets up to the largest radius; the last one may be a ridge alone.
-    fn levels_up_to(&self, largest: f64, level: &(dyn Fn(f64) -> Level + Sync)) -> Result<Vec<Level>, Error> {
+    pub(super) fn levels_up_to(
+        &self,
+        largest: f64,
+        level: &(dyn Fn(f64) -> Level + Sync),
+    ) -> Result<Vec<Level>, Error> {
         // One level more than fits, as a level may be left at the largest radius itself.
         let count = ((largest - self.distance(0)) / self.used_step()).max(0.0).ceil() + 2.0;
         if count > MAX_LEVELS as f64 {
@@ -162,12 +166,11 @@ impl Job {
                 limit: MAX_LEVELS,
             });
         }
-        let heights = self.height_count();
+        let heights = if self.tool > 0.0 { self.height_count() } else { 1 };
         if heights > MAX_HEIGHTS {
             let what = "the number of heights";
             return Err(Error::Effort { what, needed: heights, limit: MAX_HEIGHTS });
         }
-        let heights = if self.tool > 0.0 { heights } else { 1 };
         let mut levels: Vec<Level> = Vec::new();
         let (mut next, mut elements) = (0, 0u64);
         while next < count as u64 {

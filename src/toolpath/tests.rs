@@ -272,3 +272,25 @@ fn too_many_moves_are_an_error_and_not_a_hang() {
     let result = planner.pocket(&levels(square_level, &job), &clear(depth_in_square));
     assert!(matches!(result, Err(crate::Error::Effort { .. })));
 }
+
+#[test]
+fn levels_without_a_tool_begin_at_the_step() {
+    let job = Job::new(Units::Mm, 0.0, 3.0);
+    let levels = job.levels_up_to(10.0, &square_level).unwrap();
+    let distances: Vec<f64> = levels.iter().map(|l| l.distance).collect();
+    assert_eq!(distances, [3.0, 6.0, 9.0]);
+}
+
+#[test]
+fn levels_keep_their_distances_and_end_where_nothing_is_left() {
+    let distances = |job: &Job| -> Vec<f64> {
+        let levels = job.levels_up_to(10.0, &square_level).unwrap();
+        levels.iter().map(|l| l.distance).collect()
+    };
+    assert_eq!(distances(&job()), [2.0, 4.0, 6.0, 8.0]);
+    assert_eq!(distances(&Job { stock: 0.5, ..job() }), [2.5, 4.5, 6.5, 8.5]);
+    assert_eq!(distances(&Job { finish: 1.0, ..job() }), [2.0, 3.0, 5.0, 7.0, 9.0]);
+    assert_eq!(distances(&Job { step: 3.0, ..job() }), [2.0, 4.0, 6.0, 8.0]);
+    let too_many = Job { step: 1e-9, ..job() }.levels_up_to(10.0, &square_level);
+    assert!(matches!(too_many, Err(crate::Error::Effort { .. })));
+}

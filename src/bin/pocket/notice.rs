@@ -1,0 +1,90 @@
+//! Warnings and errors as they are printed: what, where in the drawing, what to do.
+
+use crate::failure::Failure;
+use medial::{Defect, Point, io, toolpath};
+use serde::Serialize;
+use std::fmt::Write as _;
+use std::io::{IsTerminal, Write as _};
+
+/// Something the user must know although the work went on.
+#[derive(Clone, Debug, Serialize)]
+pub struct Notice {
+    kind: String,
+    message: String,
+    at: Option<Point>,
+    help: String,
+    /// Whether a pocket, a nest of contours or a part of a pocket was left out.
+    #[serde(skip)]
+    pub leaves_out: bool,
+}
+
+impl From<&io::Warning> for Notice {
+    fn from(w: &io::Warning) -> Notice {
+        Notice {
+            kind: w.kind().into(),
+            message: w.to_string(),
+            at: w.at(),
+            help: w.help(),
+            leaves_out: false,
+        }
+    }
+}
+
+impl From<&Defect> for Notice {
+    fn from(defect: &Defect) -> Notice {
+        let leaves_out = match defect {
+            Defect::Crossing { .. } | Defect::SelfCrossing { .. } => true,
+            Defect::OpenContour { inside, .. } => *inside,
+            _ => false,
+        };
+        Notice { leaves_out, ..Notice::from(&io::Warning::from(defect.clone())) }
+    }
+}
+
+impl From<&toolpath::Warning> for Notice {
+    fn from(w: &toolpath::Warning) -> Notice {
+        Notice {
+            kind: w.kind().into(),
+            message: w.to_string(),
+            at: w.at(),
+            help: w.help(),
+            leaves_out: w.leaves_out(),
+        }
+    }
+}
+
+impl Notice {
+    /// Arcs that the decimals of the program are too few for.
+    pub fn arcs_dropped(count: usize, at: Point) -> Notice {
+        Notice::from(&io::Warning::ArcsDropped { count, at })
+    }
+
+    /// To standard error.
+    pub fn print(&self) {
+        print("warning", "33", &self.message, self.at, Some(&self.help));
+    }
+}
+
+impl Failure {
+    /// To standard error.
+    pub fn print(&self) {
+        print("error", "31", &self.message, self.at, self.help.as_deref());
+    }
+}
+
+fn print(label: &str, color: &str, message: &str, at: Option<Point>, help: Option<&str>) {
+    let colored =
+        std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty());
+    let paint = |word: &str, color: &str| {
+        if colored { format!("\x1b[1;{color}m{word}:\x1b[0m") } else { format!("{word}:") }
+    };
+    let mut text = format!("{} {message}\n", paint(label, color));
+    if let Some(at) = at {
+        let _ = writeln!(text, "   {} ({}, {})", paint("at", "36"), at.x, at.y);
+    }
+    if let Some(help) = help {
+        let _ = writeln!(text, " {} {help}", paint("help", "36"));
+    }
+    // Nobody is left to tell when standard error is gone.
+    let _ = std::io::stderr().lock().write_all(text.as_bytes());
+}
