@@ -68,8 +68,9 @@ impl<'a> Planner<'a> {
         let order = nest.order(self.job.start);
         let done = vec![false; order.len()];
         let last = self.last_passes(levels, &nest);
-        let (wall, rough): (Vec<usize>, Vec<usize>) = order.into_iter().partition(|&p| last[p]);
         let mut ground = Ground { levels, nest, is_clear, slack, done, last: None };
+        let needed = order.into_iter().filter(|&p| !ground.is_covered(p));
+        let (wall, rough): (Vec<usize>, Vec<usize>) = needed.partition(|&p| last[p]);
         let heights = self.job.heights();
         let mut surface = self.job.top;
         for &z in &heights {
@@ -256,6 +257,12 @@ impl Ground<'_> {
         let Pass { level, index } = self.nest.passes[pass];
         let level = &self.levels[level];
         level.loops.get(index).unwrap_or_else(|| &level.ridges[index - level.loops.len()])
+    }
+
+    /// Whether a pass is a single place with a loop round it: all that the tool cuts there is no
+    /// farther from that loop than the step, and plunging there would only harm.
+    fn is_covered(&self, pass: usize) -> bool {
+        self.spline(pass).is_empty() && !self.nest.outer[pass].is_empty()
     }
 
     /// A place of the pass from which the next one lies straight across, if that is a neighbor.

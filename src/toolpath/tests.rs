@@ -294,3 +294,19 @@ fn levels_keep_their_distances_and_end_where_nothing_is_left() {
     let too_many = Job { step: 1e-9, ..job() }.levels_up_to(10.0, &square_level);
     assert!(matches!(too_many, Err(crate::Error::Effort { .. })));
 }
+
+#[test]
+fn the_last_place_of_a_round_hole_is_not_drilled() {
+    fn hole(d: f64) -> Level {
+        let mut level = Level { distance: d, ..Level::default() };
+        match d {
+            d if d < 6.0 => level.loops = vec![ArcSpline::circle(point(0.0, 0.0), 6.0 - d)],
+            6.0 => level.ridges = vec![ArcSpline::open([(0.0, 0.0, 0.0)])],
+            _ => {}
+        }
+        level
+    }
+    let planned = plan(hole, |p| 6.0 - p.to_vector().length(), &job());
+    assert!(planned.warnings.is_empty() && planned.moves.iter().all(|m| m.to().xy() != point(0.0, 0.0)));
+    assert_eq!(planned.passes, 4);
+}

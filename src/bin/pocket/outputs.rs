@@ -4,8 +4,8 @@
 use crate::args::{Args, ReportArg};
 use crate::failure::Failure;
 use crate::plan::Plan;
+use medial::io::atomic;
 use medial::io::gcode::{self, Setup, Stats};
-use medial::io::{atomic, json, svg};
 use std::collections::BTreeSet;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -97,8 +97,8 @@ impl Outputs {
         for (path, form) in &self.files {
             let bytes = match form {
                 Form::Gcode => text.as_bytes().to_vec(),
-                Form::Svg => svg::write(&plan.picture()).into_bytes(),
-                Form::Json => json::write(&plan.document())?.into_bytes(),
+                Form::Svg => plan.picture().into_bytes(),
+                Form::Json => plan.document().to_json().into_bytes(),
             };
             staged.push((path, bytes));
         }

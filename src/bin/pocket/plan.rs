@@ -6,7 +6,8 @@ use crate::notice::Notice;
 use crate::progress::Progress;
 use crate::timings::{Timings, timed};
 use medial::io::dxf::{self, Drawing};
-use medial::io::{json, svg};
+use medial::io::json::Document;
+use medial::io::svg::Picture;
 use medial::toolpath::{Job, Path};
 use medial::{Error, Mat, Pocket, Pockets, Tolerance};
 
@@ -26,6 +27,7 @@ impl Plan {
     pub fn new(args: &Args, progress: &Progress, timings: &mut Timings) -> Result<Plan, Failure> {
         let mut notices = Vec::new();
         Plan::with_notices(args, progress, timings, &mut notices).inspect_err(|_| {
+            progress.clear();
             notices.iter().for_each(Notice::print);
         })
     }
@@ -60,30 +62,25 @@ impl Plan {
         Ok(Plan { source: drawing.name, job, tolerance, pockets, mats, path, notices })
     }
 
-    /// For the document for CAM software.
-    pub fn document(&self) -> json::Document<'_> {
-        json::Document {
-            units: self.job.units,
-            tolerance: self.tolerance.fit,
-            source: &self.source,
-            pockets: (0..self.pockets.len())
-                .map(|i| json::DocumentPocket {
-                    pocket: &self.pockets[i],
-                    mat: &self.mats[i],
-                    levels: &self.path.pockets[i].levels,
-                })
-                .collect(),
+    /// The document for CAM software.
+    pub fn document(&self) -> Document {
+        let mut document = Document::new(&self.source, self.job.units, self.tolerance.fit);
+        for ((pocket, mat), path) in self.pockets.iter().zip(&self.mats).zip(&self.path.pockets) {
+            document.add(pocket, mat, &path.levels);
         }
+        document
     }
 
-    /// For the picture.
-    pub fn picture(&self) -> svg::Picture<'_> {
-        svg::Picture {
-            pockets: &self.pockets,
-            mats: &self.mats,
-            levels: self.path.pockets.iter().map(|p| p.levels.as_slice()).collect(),
-            moves: &self.path.moves,
-        }
+    /// The picture of everything, as SVG.
+    pub fn picture(&self) -> String {
+        let edges: Vec<_> = self.mats.iter().flat_map(Mat::edges).collect();
+        Picture::new(self.job.units)
+            .title(&self.source)
+            .pockets(&self.pockets)
+            .levels(self.path.pockets.iter().flat_map(|p| &p.levels))
+            .axis(&edges)
+            .path(&self.path.moves)
+            .to_svg()
     }
 }
 

@@ -40,6 +40,11 @@ impl Progress {
     pub fn stage(&self, name: &'static str) {
         self.bar.set_message(name);
     }
+
+    /// Leaves nothing on the screen, for what is printed next.
+    pub fn clear(&self) {
+        self.bar.finish_and_clear();
+    }
 }
 
 impl Drop for Progress {
@@ -50,6 +55,6 @@ impl Drop for Progress {
             let _ = stop.send(());
             let _ = thread.join();
         }
-        self.bar.finish_and_clear();
+        self.clear();
     }
 }
