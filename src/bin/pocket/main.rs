@@ -78,7 +78,7 @@ fn set_threads(args: &Args) -> Result<(), Failure> {
 
 /// Warnings to standard error, the report to where it belongs.
 fn tell(args: &Args, plan: &Plan, report: &Report) -> Result<(), Failure> {
-    plan.notices.iter().for_each(Notice::print);
+    Notice::print_all(&plan.notices);
     match args.report {
         ReportArg::Json => print_out(&report.json()),
         ReportArg::Text if args.quiet => Ok(()),

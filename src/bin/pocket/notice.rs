@@ -3,8 +3,12 @@
 use crate::failure::Failure;
 use medial::{Defect, Point, io, toolpath};
 use serde::Serialize;
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::io::{IsTerminal, Write as _};
+
+/// As many warnings of one kind as a reader of the text report gets to see.
+const MAX_OF_A_KIND: usize = 10;
 
 /// Something the user must know although the work went on.
 #[derive(Clone, Debug, Serialize)]
@@ -59,9 +63,20 @@ impl Notice {
         Notice::from(&io::Warning::ArcsDropped { count, at })
     }
 
-    /// To standard error.
-    pub fn print(&self) {
-        print("warning", "33", &self.message, self.at, Some(&self.help));
+    /// All to standard error, but of each kind the first few only.
+    pub fn print_all(notices: &[Notice]) {
+        let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+        for notice in notices {
+            let count = counts.entry(&notice.kind).or_default();
+            *count += 1;
+            if *count <= MAX_OF_A_KIND {
+                print("warning", "33", &notice.message, notice.at, Some(&notice.help));
+            }
+        }
+        for (kind, count) in counts.into_iter().filter(|(_, count)| *count > MAX_OF_A_KIND) {
+            let message = format!("{} more of the kind {kind}", count - MAX_OF_A_KIND);
+            print("warning", "33", &message, None, Some("--report json lists them all"));
+        }
     }
 }
 

@@ -28,7 +28,7 @@ impl Plan {
         let mut notices = Vec::new();
         Plan::with_notices(args, progress, timings, &mut notices).inspect_err(|_| {
             progress.clear();
-            notices.iter().for_each(Notice::print);
+            Notice::print_all(&notices);
         })
     }
 

@@ -10,8 +10,8 @@ use medial::io::gcode::{ArcWords, Coolant, Setup};
 use medial::toolpath::{Direction, Entry, Job, Start, Strategy};
 use medial::{Tolerance, Units};
 
-/// Step as a share of the tool, when only the tool is given.
-const DEFAULT_STEP: f64 = 0.4;
+/// Step in percent of the tool, when only the tool is given.
+const DEFAULT_PERCENT: f64 = 40.0;
 
 impl Args {
     /// What of the drawing to read.
@@ -109,7 +109,7 @@ impl Args {
                 "say how far the level sets lie apart: --step 0.5",
             )),
             (Some(tool), Some(Step::Percent(percent))) => Ok((tool, tool * percent / 100.0)),
-            (Some(tool), None) => Ok((tool, tool * DEFAULT_STEP)),
+            (Some(tool), None) => Ok((tool, tool * DEFAULT_PERCENT / 100.0)),
             (None, _) => Err(Failure::usage(
                 "the size of the tool is not known",
                 "add --tool, or give the step as a length: --step 0.5",
