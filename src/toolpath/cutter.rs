@@ -99,7 +99,7 @@ impl<'a> Cutter<'a> {
             let part = if parts == 1 { *e } else { e.part(t(i - 1), t(i)) };
             let z = if i == parts { z } else { from + (z - from) * t(i) };
             match part.center() {
-                Some((center, radius)) if center.is_finite() => {
+                Some((center, radius)) if !is_flat(&part) => {
                     self.arc(&part, center, radius, z, rate);
                 }
                 _ => self.line(part.end, z, rate),
@@ -144,6 +144,16 @@ impl<'a> Cutter<'a> {
     }
 }
 
+/// Whether an arc is no different from its chord, its center beyond reach.
+fn is_flat(arc: &Element) -> bool {
+    /// Round-off of the four coordinates that chord and bulge come from, one rounding each.
+    const COORDINATE_ERROR: f64 = 2.0 * f64::EPSILON;
+    let sagitta = 0.5 * arc.chord().length() * arc.bulge.abs();
+    let magnitude =
+        [arc.start.x, arc.start.y, arc.end.x, arc.end.y].into_iter().fold(0.0, |m, c| c.abs().max(m));
+    sagitta <= COORDINATE_ERROR * magnitude
+}
+
 /// In how many equal parts of at most a half circle an element goes.
 fn half_circles(e: &Element) -> usize {
     /// Round-off of `4 atan(bulge) / pi` at a bulge of 1.
@@ -172,6 +182,16 @@ mod tests {
         assert!((cutter.totals.rapid_length - (4.0 + 7.0)).abs() < 1e-12);
         let arc = (1.5 * PI).hypot(1.0);
         assert!((cutter.totals.cut_length - (2.0 + arc)).abs() < 1e-3);
+    }
+
+    #[test]
+    fn an_arc_as_good_as_straight_is_a_line() {
+        let job = Job::new(Units::Mm, 2.0, 1.0);
+        let mut cutter = Cutter::new(&job);
+        cutter.over(point(100.0, 0.0), 0.0);
+        cutter.cut(&Element::arc(point(100.0, 0.0), point(101.0, 0.0), 1e-15));
+        cutter.cut(&Element::arc(point(101.0, 0.0), point(102.0, 0.0), 1e-9));
+        assert_eq!((cutter.totals.lines, cutter.totals.arcs), (1, 1));
     }
 
     #[test]

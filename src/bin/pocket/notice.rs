@@ -95,11 +95,32 @@ fn print(label: &str, color: &str, message: &str, at: Option<Point>, help: Optio
     };
     let mut text = format!("{} {message}\n", paint(label, color));
     if let Some(at) = at {
-        let _ = writeln!(text, "   {} ({}, {})", paint("at", "36"), at.x, at.y);
+        let _ = writeln!(text, "   {} ({}, {})", paint("at", "36"), short(at.x), short(at.y));
     }
     if let Some(help) = help {
         let _ = writeln!(text, " {} {help}", paint("help", "36"));
     }
     // Nobody is left to tell when standard error is gone.
     let _ = std::io::stderr().lock().write_all(text.as_bytes());
+}
+
+/// A length as a reader wants it: at most six decimals, no trailing zeros.
+pub fn short(length: f64) -> String {
+    let text = format!("{length:.6}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lengths_are_short() {
+        assert_eq!(short(2.400_000_000_000_000_4), "2.4");
+        assert_eq!(
+            (short(-0.000_000_1), short(120.0), short(-3.25)),
+            ("0".into(), "120".into(), "-3.25".into())
+        );
+    }
 }

@@ -1,6 +1,6 @@
 //! What was done: as text for people or as JSON for programs.
 
-use crate::notice::Notice;
+use crate::notice::{Notice, short};
 use crate::plan::Plan;
 use crate::timings::Timings;
 use crate::verdict::Verdict;
@@ -79,7 +79,13 @@ impl<'a> Report<'a> {
         };
         let mut text = String::new();
         // Writing to a string cannot fail.
-        let _ = writeln!(text, "{}: tool {} {unit}, step {} {unit}", self.source, self.tool, self.step);
+        let _ = writeln!(
+            text,
+            "{}: tool {} {unit}, step {} {unit}",
+            self.source,
+            short(self.tool),
+            short(self.step)
+        );
         for (i, p) in self.pockets.iter().enumerate() {
             let _ = write!(
                 text,

@@ -5,6 +5,7 @@ use crate::args::{
 };
 use crate::failure::Failure;
 use crate::length::{Length, Step};
+use crate::notice::short;
 use medial::io::dxf::ReadOptions;
 use medial::io::gcode::{ArcWords, Coolant, Setup};
 use medial::toolpath::{Direction, Entry, Job, Start, Strategy};
@@ -151,7 +152,7 @@ impl Args {
         let PostArg::Generic = self.post;
         vec![
             format!("pocket {} of {source}", env!("CARGO_PKG_VERSION")),
-            format!("tool {} step {} depth {}", job.tool, job.used_step(), job.depth),
+            format!("tool {} step {} depth {}", short(job.tool), short(job.used_step()), short(job.depth)),
         ]
     }
 }
