@@ -216,7 +216,7 @@ fn every_axis_and_level_of_degenerate_shapes_is_right() {
 }
 
 fn faults(loops: &[ArcSpline]) -> Vec<String> {
-    let pocket = medial::boundary::checked(loops.to_vec());
+    let pocket = medial::Pocket::from_loops(loops.to_vec(), medial::Tolerance::MM).unwrap();
     let mat = match pocket.medial_axis() {
         Ok(mat) => mat,
         Err(e) => return vec![e.to_string()],

@@ -2,7 +2,7 @@
 mod shapes;
 use medial::*;
 fn judge(name: &str, loops: Vec<ArcSpline>, ds: &[f64]) {
-    let p = medial::boundary::checked(loops.clone());
+    let p = medial::Pocket::from_loops(loops.clone(), medial::Tolerance::MM).unwrap();
     let m = p.medial_axis().unwrap();
     if let Err(e) = m.check() {
         println!("{name} CHECK {e}");

@@ -1,5 +1,28 @@
-//! Motions of the tool.
+//! From level sets to the moves of a tool.
+//!
+//! **Needs** the medial axes of the pockets and a [`Job`]: a tool and what it shall do.
+//! **Guarantees** that the tool stays in the pocket, that all it can reach is cut at every height,
+//! and that rapids never meet stock. The order of pockets is that given.
+//!
+//! **Method.** Levels lie at tool radius + stock and on from there in equal steps, until nothing is
+//! left. Loops of neighboring levels are paired (`nest`) and cut in chains, from the inside out or
+//! from the wall inward, at every height. Neighbors are joined by straight links at depth; elsewhere
+//! the tool goes up, across, and down into a neighbor that is cut already, or by a ramp into the
+//! stock (`plan`).
 
+mod course;
+mod cutter;
+mod job;
 mod moves;
+mod nest;
+mod path;
+mod plan;
+#[cfg(test)]
+mod tests;
+mod warning;
 
+pub use cutter::Totals;
+pub use job::{Direction, Entry, Job, Start, Strategy};
 pub use moves::{Move, Point3};
+pub use path::{Path, PocketPath};
+pub use warning::Warning;

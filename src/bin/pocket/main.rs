@@ -1,3 +1,97 @@
-//! The binary `pocket`.
+//! The binary `pocket`: a drawing in, a program out.
 
-fn main() {}
+mod args;
+mod exit;
+mod failure;
+mod length;
+mod notice;
+mod outputs;
+mod plan;
+mod progress;
+mod report;
+mod settings;
+mod timings;
+mod verdict;
+
+use crate::args::{Args, ReportArg, SUBCOMMANDS, reserved};
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::notice::Notice;
+use crate::outputs::{Outputs, print_out};
+use crate::plan::Plan;
+use crate::progress::Progress;
+use crate::report::Report;
+use crate::timings::{Timings, timed};
+use crate::verdict::Verdict;
+use clap::Parser;
+use std::io::Write;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    match run() {
+        Ok(exit) => exit.into(),
+        Err(failure) => {
+            failure.print();
+            failure.exit.into()
+        }
+    }
+}
+
+fn run() -> Result<Exit, Failure> {
+    let args = parse()?;
+    let outputs = Outputs::new(&args)?;
+    args.check()?;
+    set_threads(&args)?;
+    let mut timings = Timings::default();
+    let progress = Progress::new(args.quiet);
+    let mut plan = Plan::new(&args, &progress, &mut timings)?;
+    let setup = args.setup(&plan.job, &plan.source)?;
+    progress.stage("judging");
+    let verdict = args.verify.then(|| Verdict::of(&plan));
+    progress.stage("writing");
+    let written = timed(&mut timings.write, || outputs.write(&plan, &setup))?;
+    if let Some((stats, at)) = written.and_then(|s| s.dropped_arc_at.map(|at| (s.dropped_arcs, at))) {
+        plan.notices.push(Notice::arcs_dropped(stats, at));
+    }
+    drop(progress);
+    let report = Report::new(&plan, verdict.as_ref(), args.timings.then_some(timings));
+    tell(&args, &plan, &report)?;
+    Ok(exit(&args, &plan, verdict.as_ref()))
+}
+
+/// The command line; help and version end the program here.
+fn parse() -> Result<Args, Failure> {
+    let first = std::env::args_os().nth(1);
+    if let Some(name) = first.as_ref().and_then(|a| a.to_str()).filter(|a| SUBCOMMANDS.contains(a)) {
+        return Err(Failure::usage(reserved(name), "see pocket --help for what there is"));
+    }
+    Args::try_parse().map_err(|e| e.exit())
+}
+
+fn set_threads(args: &Args) -> Result<(), Failure> {
+    let Some(jobs) = args.jobs else { return Ok(()) };
+    rayon::ThreadPoolBuilder::new().num_threads(jobs.into()).build_global().map_err(|e| {
+        let message = format!("cannot start {jobs} threads: {e}");
+        Failure { exit: Exit::Cannot, message, at: None, help: Some("take fewer: --jobs 1".into()) }
+    })
+}
+
+/// Warnings to standard error, the report to where it belongs.
+fn tell(args: &Args, plan: &Plan, report: &Report) -> Result<(), Failure> {
+    Notice::print_all(&plan.notices);
+    match args.report {
+        ReportArg::Json => print_out(&report.json()),
+        ReportArg::Text if args.quiet => Ok(()),
+        ReportArg::Text => {
+            // Nobody is left to tell when standard error is gone.
+            let _ = std::io::stderr().lock().write_all(report.text().as_bytes());
+            Ok(())
+        }
+    }
+}
+
+fn exit(args: &Args, plan: &Plan, verdict: Option<&Verdict>) -> Exit {
+    let refused = verdict.is_some_and(|v| !v.is_right());
+    let left_out = args.strict && plan.notices.iter().any(|n| n.leaves_out);
+    if refused || left_out { Exit::Refused } else { Exit::Done }
+}

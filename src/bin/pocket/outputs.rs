@@ -1,0 +1,161 @@
+//! The files to write: their forms, known before any work, and all of them staged before the first
+//! is replaced.
+
+use crate::args::{Args, ReportArg};
+use crate::failure::Failure;
+use crate::plan::Plan;
+use medial::io::atomic;
+use medial::io::gcode::{self, Setup, Stats};
+use std::collections::BTreeSet;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// The form of an output file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    Gcode,
+    Svg,
+    Json,
+}
+
+/// The outputs asked for.
+#[derive(Debug, Default)]
+pub struct Outputs {
+    files: Vec<(PathBuf, Form)>,
+    standard_output: bool,
+}
+
+impl Form {
+    fn of(path: &Path) -> Result<Form, Failure> {
+        let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_ascii_lowercase();
+        match extension.as_str() {
+            "nc" | "ngc" | "gcode" | "tap" | "cnc" => Ok(Form::Gcode),
+            "svg" => Ok(Form::Svg),
+            "json" => Ok(Form::Json),
+            _ => Err(Failure::usage(
+                format!("the form of {} is not known", path.display()),
+                "end its name in .nc .ngc .gcode .tap .cnc (G-code), .svg (picture) or .json (document)",
+            )),
+        }
+    }
+}
+
+impl Outputs {
+    /// Reads the forms off the names.
+    pub fn new(args: &Args) -> Result<Outputs, Failure> {
+        let mut outputs = Outputs::default();
+        let mut seen = BTreeSet::new();
+        for path in &args.outputs {
+            if !seen.insert(path) {
+                return Err(Failure::usage(
+                    format!("{} is to be written twice", path.display()),
+                    "give each -o its own name",
+                ));
+            }
+            if path == Path::new("-") {
+                outputs.standard_output = true;
+            } else {
+                outputs.files.push((path.clone(), Form::of(path)?));
+            }
+        }
+        outputs.check(args)?;
+        Ok(outputs)
+    }
+
+    fn check(&self, args: &Args) -> Result<(), Failure> {
+        if self.standard_output && args.report == ReportArg::Json {
+            return Err(Failure::usage(
+                "-o - and --report json both want standard output",
+                "write the program to a file: -o part.nc",
+            ));
+        }
+        let no_tool = args.tool.is_some_and(|l| l.to(medial::Units::Mm) == 0.0);
+        if no_tool && self.has_program() {
+            return Err(Failure::usage(
+                "--tool 0 asks for level sets alone, a program needs a tool",
+                "give the diameter of the tool, or write -o part.json or -o part.svg",
+            ));
+        }
+        if let Some((path, _)) = self.files.iter().find(|(p, _)| same_file(p, &args.drawing)) {
+            return Err(Failure::usage(
+                format!("{} is the drawing itself", path.display()),
+                "give the output another name",
+            ));
+        }
+        Ok(())
+    }
+
+    fn has_program(&self) -> bool {
+        self.standard_output || self.files.iter().any(|(_, form)| *form == Form::Gcode)
+    }
+
+    /// Writes everything, or nothing. Answers what the program holds, if there is one.
+    pub fn write(&self, plan: &Plan, setup: &Setup) -> Result<Option<Stats>, Failure> {
+        let program = if self.has_program() { Some(gcode::write(&plan.path.moves, setup)?) } else { None };
+        let text = program.as_ref().map_or("", |p| p.text.as_str());
+        let mut staged: Vec<(&Path, Vec<u8>)> = Vec::new();
+        for (path, form) in &self.files {
+            let bytes = match form {
+                Form::Gcode => text.as_bytes().to_vec(),
+                Form::Svg => plan.picture().into_bytes(),
+                Form::Json => plan.document().to_json().into_bytes(),
+            };
+            staged.push((path, bytes));
+        }
+        atomic::write_all_whole(&staged)?;
+        if self.standard_output {
+            print_out(text)?;
+        }
+        Ok(program.map(|p| p.stats))
+    }
+}
+
+/// Writes to standard output; a reader that went away is no fault.
+pub fn print_out(text: &str) -> Result<(), Failure> {
+    let mut out = std::io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(e) if e.kind() != std::io::ErrorKind::BrokenPipe => Err(Failure::standard_output(&e)),
+        _ => Ok(()),
+    }
+}
+
+fn same_file(a: &Path, b: &Path) -> bool {
+    match (a.canonicalize(), b.canonicalize()) {
+        (Ok(a), Ok(b)) => a == b,
+        _ => a == b,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::Parser;
+
+    fn outputs(more: &[&str]) -> Result<Outputs, Failure> {
+        let args = ["pocket", "a.dxf", "--step", "0.5"].iter().chain(more);
+        Outputs::new(&Args::try_parse_from(args).unwrap())
+    }
+
+    #[test]
+    fn the_extension_chooses_the_form() {
+        for name in ["a.nc", "a.NGC", "b/a.gcode", "a.tap", "a.x.cnc"] {
+            assert_eq!(outputs(&["-o", name]).unwrap().files[0].1, Form::Gcode);
+        }
+        assert_eq!(outputs(&["-o", "a.svg", "-o", "a.json"]).unwrap().files[1].1, Form::Json);
+    }
+
+    #[test]
+    fn forms_that_are_not_known_are_refused() {
+        for name in ["a", "a.txt", "nc", ".nc", "a.nc.bak"] {
+            assert!(outputs(&["-o", name]).is_err(), "{name}");
+        }
+    }
+
+    #[test]
+    fn standard_output_holds_one_thing() {
+        assert!(outputs(&["-o", "-"]).unwrap().standard_output);
+        assert!(outputs(&["-o", "-", "--report", "json"]).is_err());
+        assert!(outputs(&["-o", "a.nc", "-o", "a.nc"]).is_err());
+        assert!(outputs(&["-o", "a.nc", "--tool", "0"]).is_err());
+    }
+}

@@ -1,0 +1,115 @@
+//! From the drawing to the path, stage by stage.
+
+use crate::args::Args;
+use crate::failure::Failure;
+use crate::notice::Notice;
+use crate::progress::Progress;
+use crate::timings::{Timings, timed};
+use medial::io::dxf::{self, Drawing};
+use medial::io::json::Document;
+use medial::io::svg::Picture;
+use medial::toolpath::{Job, Path};
+use medial::{Error, Mat, Pocket, Pockets, Tolerance};
+
+/// All that is known when the work is done.
+pub struct Plan {
+    pub source: String,
+    pub job: Job,
+    pub tolerance: Tolerance,
+    pub pockets: Vec<Pocket>,
+    pub mats: Vec<Mat>,
+    pub path: Path,
+    pub notices: Vec<Notice>,
+}
+
+impl Plan {
+    /// Reads, chains, builds the axes, plans. What is known by then is printed before an error.
+    pub fn new(args: &Args, progress: &Progress, timings: &mut Timings) -> Result<Plan, Failure> {
+        let mut notices = Vec::new();
+        Plan::with_notices(args, progress, timings, &mut notices).inspect_err(|_| {
+            progress.clear();
+            Notice::print_all(&notices);
+        })
+    }
+
+    fn with_notices(
+        args: &Args,
+        progress: &Progress,
+        timings: &mut Timings,
+        notices: &mut Vec<Notice>,
+    ) -> Result<Plan, Failure> {
+        progress.stage("reading");
+        let options = args.read_options()?;
+        let drawing = timed(&mut timings.read, || dxf::read(&args.drawing, &options))?;
+        notices.extend(drawing.warnings.iter().map(Notice::from));
+        let job = args.job(drawing.units)?;
+        let tolerance = args.tolerance(drawing.units);
+        progress.stage("chaining");
+        let pockets = pockets(&drawing, tolerance, timings, notices)?;
+        progress.stage("medial axis");
+        let mats = timed(&mut timings.axis, || {
+            pockets.iter().map(Pocket::medial_axis).collect::<Result<Vec<_>, _>>()
+        })?;
+        progress.stage("offsets");
+        let levels = timed(&mut timings.offsets, || {
+            mats.iter().map(|mat| job.levels(mat)).collect::<Result<Vec<_>, _>>()
+        })?;
+        progress.stage("tool path");
+        let path = timed(&mut timings.path, || job.path_along(&mats, levels))?;
+        notices.extend(path.warnings.iter().map(Notice::from));
+        count(&mats, &path, timings);
+        let notices = std::mem::take(notices);
+        Ok(Plan { source: drawing.name, job, tolerance, pockets, mats, path, notices })
+    }
+
+    /// The document for CAM software.
+    pub fn document(&self) -> Document {
+        let mut document = Document::new(&self.source, self.job.units, self.tolerance.fit);
+        for ((pocket, mat), path) in self.pockets.iter().zip(&self.mats).zip(&self.path.pockets) {
+            document.add(pocket, mat, &path.levels);
+        }
+        document
+    }
+
+    /// The picture of everything, as SVG.
+    pub fn picture(&self) -> String {
+        let edges: Vec<_> = self.mats.iter().flat_map(Mat::edges).collect();
+        Picture::new(self.job.units)
+            .title(&self.source)
+            .pockets(&self.pockets)
+            .levels(self.path.pockets.iter().flat_map(|p| &p.levels))
+            .axis(&edges)
+            .path(&self.path.moves)
+            .to_svg()
+    }
+}
+
+fn pockets(
+    drawing: &Drawing,
+    tolerance: Tolerance,
+    timings: &mut Timings,
+    notices: &mut Vec<Notice>,
+) -> Result<Vec<Pocket>, Failure> {
+    let Pockets { pockets, defects } =
+        timed(&mut timings.chain, || Pockets::from_curves(&drawing.curves, tolerance))?;
+    notices.extend(defects.iter().map(Notice::from));
+    if pockets.is_empty() {
+        let reason = match (drawing.curves.is_empty(), defects.is_empty()) {
+            (true, _) => "the drawing holds no curve that is read",
+            (false, true) => "no contour of the drawing is closed",
+            (false, false) => "no contour of the drawing is closed and free of crossings",
+        };
+        return Err(Error::NothingToMachine { reason: reason.into() }.into());
+    }
+    Ok(pockets)
+}
+
+fn count(mats: &[Mat], path: &Path, timings: &mut Timings) {
+    for counts in mats.iter().map(Mat::counts) {
+        timings.sites += counts.sites;
+        timings.vertices += counts.vertices;
+        timings.edges += counts.edges;
+    }
+    let levels = path.pockets.iter().flat_map(|p| &p.levels);
+    timings.loops = levels.map(|l| l.loops.len() + l.ridges.len()).sum();
+}

@@ -1,0 +1,118 @@
+//! What was done: as text for people or as JSON for programs.
+
+use crate::notice::{Notice, short};
+use crate::plan::Plan;
+use crate::timings::Timings;
+use crate::verdict::Verdict;
+use medial::Units;
+use medial::toolpath::Totals;
+use serde::Serialize;
+use std::fmt::Write;
+
+/// The JSON report.
+#[derive(Serialize)]
+pub struct Report<'a> {
+    source: &'a str,
+    units: Units,
+    tool: f64,
+    step: f64,
+    tolerance: f64,
+    pockets: Vec<PocketReport>,
+    path: Totals,
+    verify: Option<&'a Verdict>,
+    warnings: &'a [Notice],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    timings: Option<Timings>,
+}
+
+#[derive(Serialize)]
+struct PocketReport {
+    area: f64,
+    islands: usize,
+    arcs: usize,
+    largest_tool: f64,
+    unreachable_area: f64,
+    narrowest_neck: Option<f64>,
+    passes: usize,
+    machined: bool,
+}
+
+impl<'a> Report<'a> {
+    /// Collects what the plan knows.
+    pub fn new(plan: &'a Plan, verify: Option<&'a Verdict>, timings: Option<Timings>) -> Report<'a> {
+        let pockets = plan.pockets.iter().zip(&plan.path.pockets);
+        Report {
+            source: &plan.source,
+            units: plan.job.units,
+            tool: plan.job.tool,
+            step: plan.job.used_step(),
+            tolerance: plan.tolerance.fit,
+            pockets: pockets
+                .map(|(pocket, path)| PocketReport {
+                    area: pocket.area(),
+                    islands: pocket.islands().len(),
+                    arcs: pocket.loops().flat_map(|l| l.elements()).filter(|e| !e.is_segment()).count(),
+                    largest_tool: path.largest_tool,
+                    unreachable_area: path.unreachable_area,
+                    narrowest_neck: path.narrowest_neck,
+                    passes: path.passes,
+                    machined: path.machined,
+                })
+                .collect(),
+            path: plan.path.totals,
+            verify,
+            warnings: &plan.notices,
+            timings,
+        }
+    }
+
+    /// One object and a line feed.
+    pub fn json(&self) -> String {
+        serde_json::to_string(self).map_or_else(|e| format!("{{\"error\":\"{e}\"}}\n"), |text| text + "\n")
+    }
+
+    /// A few lines.
+    pub fn text(&self) -> String {
+        let unit = match self.units {
+            Units::Mm => "mm",
+            Units::Inch => "in",
+        };
+        let mut text = String::new();
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "{}: tool {} {unit}, step {} {unit}",
+            self.source,
+            short(self.tool),
+            short(self.step)
+        );
+        for (i, p) in self.pockets.iter().enumerate() {
+            let _ = write!(
+                text,
+                "pocket {}: area {:.3} {unit}2, {} islands, {} arcs, largest tool {:.4} {unit}",
+                i + 1,
+                p.area,
+                p.islands,
+                p.arcs,
+                p.largest_tool
+            );
+            if let Some(neck) = p.narrowest_neck {
+                let _ = write!(text, ", narrowest neck {neck:.4} {unit}");
+            }
+            let _ = if p.machined {
+                writeln!(text, ", {} passes, {:.4} {unit}2 out of reach", p.passes, p.unreachable_area)
+            } else {
+                writeln!(text, ", left out")
+            };
+        }
+        let path = &self.path;
+        let _ = writeln!(
+            text,
+            "path: {:.1} {unit} cut, {:.1} {unit} rapid, {} retracts, {} arcs, {} lines, {:.1} min",
+            path.cut_length, path.rapid_length, path.retracts, path.arcs, path.lines, path.minutes
+        );
+        text += &self.verify.map_or(String::new(), Verdict::text);
+        text += &self.timings.map_or(String::new(), |t| t.text());
+        text
+    }
+}

@@ -1,0 +1,184 @@
+//! The way that a pass takes: a chain of elements that may begin anywhere on a loop.
+
+use crate::geom::{ArcSpline, Element, Point};
+
+/// Elements in order of travel; closed when the last ends where the first begins.
+#[derive(Clone, Debug)]
+pub(super) struct Course {
+    pub elements: Vec<Element>,
+    pub closed: bool,
+    /// Where it begins; the only place of a course without elements.
+    pub start: Point,
+}
+
+/// A place on a course, for beginning there.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    pub element: usize,
+    pub point: Point,
+    pub distance: f64,
+}
+
+impl Course {
+    /// Along a spline, in its sense or against it. `None` where it has no vertex.
+    pub fn along(spline: &ArcSpline, backwards: bool) -> Option<Course> {
+        let start = spline.vertices.first()?.point;
+        let useful = |e: &Element| e.is_finite() && (e.start != e.end);
+        let elements: Vec<Element> = if backwards {
+            (0..spline.len()).rev().map(|i| spline.element(i).reversed()).filter(useful).collect()
+        } else {
+            spline.elements().filter(useful).collect()
+        };
+        let start = elements.first().map_or(start, |e| e.start);
+        Some(Course { elements, closed: spline.closed, start })
+    }
+
+    /// Length along the course.
+    pub fn length(&self) -> f64 {
+        self.elements.iter().map(Element::length).sum()
+    }
+
+    /// Where it ends.
+    pub fn end(&self) -> Point {
+        self.elements.last().map_or(self.start, |e| e.end)
+    }
+
+    /// The place nearest to `p` where the course can begin: anywhere when closed, else an end.
+    pub fn nearest(&self, p: Point) -> Place {
+        if !self.closed || self.elements.is_empty() {
+            let (a, b) = (self.start.distance(p), self.end().distance(p));
+            let last = self.elements.len();
+            return if a <= b {
+                Place { element: 0, point: self.start, distance: a }
+            } else {
+                Place { element: last, point: self.end(), distance: b }
+            };
+        }
+        let mut best = Place { element: 0, point: self.start, distance: f64::INFINITY };
+        for (element, e) in self.elements.iter().enumerate() {
+            let near = e.nearest(p);
+            if near.distance < best.distance {
+                best = Place { element, point: near.point, distance: near.distance };
+            }
+        }
+        best
+    }
+
+    /// The middle of the longest element: away from corners.
+    pub fn calm_place(&self) -> Point {
+        let mut longest = (0.0, self.start);
+        for e in &self.elements {
+            let length = e.length();
+            if length > longest.0 {
+                longest = (length, e.midpoint());
+            }
+        }
+        longest.1
+    }
+
+    /// The same course begun at a place of it; an open one is turned round where that is its end.
+    /// Parts shorter than `slack` are not split off.
+    pub fn begun_at(mut self, place: Place, slack: f64) -> Course {
+        if self.elements.is_empty() {
+            return self;
+        }
+        if !self.closed {
+            if place.element > 0 {
+                self.elements.reverse();
+                self.elements.iter_mut().for_each(|e| *e = e.reversed());
+                self.start = self.elements[0].start;
+            }
+            return self;
+        }
+        let i = place.element;
+        let e = self.elements[i];
+        let (before, after) = e.split(e.parameter(place.point));
+        let n = self.elements.len();
+        // A place next to a vertex is the vertex: no element of round-off length.
+        if before.length() <= slack {
+            self.elements.rotate_left(i);
+        } else if after.length() <= slack {
+            self.elements.rotate_left((i + 1) % n);
+        } else {
+            self.elements.rotate_left(i);
+            self.elements[0] = after;
+            self.elements.push(before);
+        }
+        self.start = self.elements[0].start;
+        self
+    }
+
+    /// The last stretch of a given length of a closed course, run round as often as it takes.
+    pub fn tail(&self, length: f64) -> Vec<Element> {
+        let mut parts = Vec::new();
+        let mut left = length;
+        while left > 0.0 {
+            for e in self.elements.iter().rev() {
+                let own = e.length();
+                if own >= left {
+                    parts.push(if own > left { e.part(1.0 - left / own, 1.0) } else { *e });
+                    left = 0.0;
+                    break;
+                }
+                parts.push(*e);
+                left -= own;
+            }
+        }
+        parts.reverse();
+        parts
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::point;
+
+    fn square() -> Course {
+        let s = ArcSpline::closed([(0.0, 0.0, 0.0), (4.0, 0.0, 0.0), (4.0, 4.0, 0.0), (0.0, 4.0, 0.0)]);
+        Course::along(&s, false).unwrap()
+    }
+
+    #[test]
+    fn a_closed_course_begins_at_the_nearest_place() {
+        let s = square();
+        let at = s.nearest(point(3.0, 1.5));
+        assert_eq!((at.distance, at.point), (1.0, point(4.0, 1.5)));
+        let c = s.begun_at(at, 1e-12);
+        assert_eq!(c.start, c.end());
+        assert_eq!(c.start, at.point);
+        assert_eq!((c.elements.len(), c.length()), (5, 16.0));
+    }
+
+    #[test]
+    fn a_place_at_a_vertex_splits_nothing() {
+        let s = square();
+        let c = s.clone().begun_at(s.nearest(point(5.0, 5.0)), 1e-12);
+        assert_eq!((c.start, c.elements.len()), (point(4.0, 4.0), 4));
+    }
+
+    #[test]
+    fn an_open_course_begins_at_its_nearer_end() {
+        let o = ArcSpline::open([(0.0, 0.0, 0.5), (2.0, 0.0, 0.0), (5.0, 0.0, 0.0)]);
+        let c = Course::along(&o, false).unwrap();
+        let c = c.clone().begun_at(c.nearest(point(6.0, 0.0)), 1e-12);
+        assert_eq!((c.start, c.end()), (point(5.0, 0.0), point(0.0, 0.0)));
+        assert_eq!(c.elements[1].bulge, -0.5);
+    }
+
+    #[test]
+    fn a_tail_ends_where_the_course_ends_and_goes_round() {
+        let t = square().tail(18.0);
+        assert_eq!(t.first().unwrap().start, point(0.0, 2.0));
+        assert_eq!(t.last().unwrap().end, point(0.0, 0.0));
+        assert!((t.iter().map(Element::length).sum::<f64>() - 18.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn running_backwards_turns_every_element() {
+        let c = ArcSpline::circle(point(0.0, 0.0), 1.0);
+        let back = Course::along(&c, true).unwrap();
+        assert_eq!((back.start, back.end()), (point(1.0, 0.0), point(1.0, 0.0)));
+        assert!(back.elements.iter().all(|e| e.bulge == -1.0));
+    }
+}

@@ -1,0 +1,208 @@
+//! The tool in the machine: appends moves, knows where it is, and adds up lengths and time.
+
+use super::{Job, Move, Point3};
+use crate::geom::{Element, Point};
+use crate::tolerance::Units;
+use serde::{Deserialize, Serialize};
+use std::f64::consts::PI;
+
+/// What a path amounts to. Lengths in job units.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Totals {
+    /// Length of all feed moves.
+    pub cut_length: f64,
+    /// Length of all rapid moves.
+    pub rapid_length: f64,
+    /// How often the tool leaves the stock for the next place, the end of the path included.
+    pub retracts: usize,
+    /// Circular moves.
+    pub arcs: usize,
+    /// Straight feed moves.
+    pub lines: usize,
+    /// Time without acceleration, with rapids at 5000 mm (200 inch) per minute.
+    pub minutes: f64,
+}
+
+/// Rate of rapids that the estimate of time assumes, in units per minute.
+fn rapid_rate(units: Units) -> f64 {
+    match units {
+        Units::Mm => 5000.0,
+        Units::Inch => 200.0,
+    }
+}
+
+/// Appends moves.
+pub(super) struct Cutter<'a> {
+    job: &'a Job,
+    at: Option<Point3>,
+    pub moves: Vec<Move>,
+    pub totals: Totals,
+}
+
+impl<'a> Cutter<'a> {
+    /// A tool that is nobody knows where.
+    pub fn new(job: &'a Job) -> Cutter<'a> {
+        Cutter { job, at: None, moves: Vec::new(), totals: Totals::default() }
+    }
+
+    /// Where the tool is in the drawing, once it has moved.
+    pub fn at(&self) -> Option<Point> {
+        self.at.map(Point3::xy)
+    }
+
+    /// Height of rapids across.
+    fn clearance(&self) -> f64 {
+        self.job.top + self.job.clearance
+    }
+
+    /// Up to the clearance, across to `p`, and down through air to `retract` above the surface.
+    pub fn over(&mut self, p: Point, surface: f64) {
+        self.leave();
+        let clearance = self.clearance();
+        self.rapid(Point3::new(p, clearance));
+        let near = surface + self.job.retract;
+        if near < clearance {
+            self.rapid(Point3::new(p, near));
+        }
+    }
+
+    /// Up to the clearance, if the tool is anywhere yet.
+    pub fn leave(&mut self) {
+        let clearance = self.clearance();
+        if let Some(at) = self.at
+            && at.z < clearance
+        {
+            self.totals.retracts += 1;
+            self.rapid(Point3 { z: clearance, ..at });
+        }
+    }
+
+    /// Straight down to a height, at the plunge feed.
+    pub fn plunge(&mut self, z: f64) {
+        if let Some(at) = self.at {
+            self.line(at.xy(), z, self.job.plunge_feed);
+        }
+    }
+
+    /// Along an element at the feed rate, at the height where the tool is.
+    pub fn cut(&mut self, e: &Element) {
+        let z = self.at.map_or(self.clearance(), |at| at.z);
+        self.follow(e, z, self.job.feed);
+    }
+
+    /// Along an element to a height, evenly.
+    pub fn follow(&mut self, e: &Element, z: f64, rate: f64) {
+        let from = self.at.map_or(z, |at| at.z);
+        let parts = half_circles(e);
+        for i in 1..=parts {
+            let t = |i: usize| i as f64 / parts as f64;
+            let part = if parts == 1 { *e } else { e.part(t(i - 1), t(i)) };
+            let z = if i == parts { z } else { from + (z - from) * t(i) };
+            match part.center() {
+                Some((center, radius)) if !is_flat(&part) => {
+                    self.arc(&part, center, radius, z, rate);
+                }
+                _ => self.line(part.end, z, rate),
+            }
+        }
+    }
+
+    fn rapid(&mut self, to: Point3) {
+        if self.at == Some(to) {
+            return;
+        }
+        let length = self.at.map_or(0.0, |at| at.distance(to));
+        self.totals.rapid_length += length;
+        self.totals.minutes += length / rapid_rate(self.job.units);
+        self.moves.push(Move::Rapid { to });
+        self.at = Some(to);
+    }
+
+    /// Straight at a rate.
+    pub fn line(&mut self, p: Point, z: f64, rate: f64) {
+        let to = Point3::new(p, z);
+        if self.at == Some(to) {
+            return;
+        }
+        self.totals.lines += 1;
+        self.advance(to, self.at.map_or(0.0, |at| at.distance(to)), rate);
+        self.moves.push(Move::Feed { to, rate });
+    }
+
+    fn arc(&mut self, part: &Element, center: Point, radius: f64, z: f64, rate: f64) {
+        let to = Point3::new(part.end, z);
+        let climb = self.at.map_or(0.0, |at| z - at.z);
+        self.totals.arcs += 1;
+        self.advance(to, (radius * part.sweep().abs()).hypot(climb), rate);
+        self.moves.push(Move::Arc { to, center, ccw: part.bulge > 0.0, rate });
+    }
+
+    fn advance(&mut self, to: Point3, length: f64, rate: f64) {
+        self.totals.cut_length += length;
+        self.totals.minutes += length / rate;
+        self.at = Some(to);
+    }
+}
+
+/// Whether an arc is no different from its chord, its center beyond reach.
+fn is_flat(arc: &Element) -> bool {
+    /// Round-off of the four coordinates that chord and bulge come from, one rounding each.
+    const COORDINATE_ERROR: f64 = 2.0 * f64::EPSILON;
+    let sagitta = 0.5 * arc.chord().length() * arc.bulge.abs();
+    let magnitude =
+        [arc.start.x, arc.start.y, arc.end.x, arc.end.y].into_iter().fold(0.0, |m, c| c.abs().max(m));
+    sagitta <= COORDINATE_ERROR * magnitude
+}
+
+/// In how many equal parts of at most a half circle an element goes.
+fn half_circles(e: &Element) -> usize {
+    /// Round-off of `4 atan(bulge) / pi` at a bulge of 1.
+    const QUOTIENT_ERROR: f64 = 4.0 * f64::EPSILON;
+    (e.sweep().abs() / PI * (1.0 - QUOTIENT_ERROR)).ceil().max(1.0) as usize
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::point;
+
+    #[test]
+    fn the_first_motion_is_up_and_over_and_no_arc_exceeds_a_half_circle() {
+        let job = Job::new(Units::Mm, 2.0, 1.0);
+        let mut cutter = Cutter::new(&job);
+        cutter.over(point(1.0, 0.0), 0.0);
+        cutter.plunge(-1.0);
+        let most = Element::arc(point(1.0, 0.0), point(0.0, -1.0), (3.0 * PI / 8.0).tan());
+        cutter.follow(&most, -2.0, 100.0);
+        cutter.leave();
+        assert_eq!(cutter.moves[0].to(), Point3 { x: 1.0, y: 0.0, z: 5.0 });
+        assert_eq!(cutter.moves[1].to().z, 1.0);
+        assert_eq!((cutter.totals.arcs, cutter.totals.lines, cutter.totals.retracts), (2, 1, 1));
+        assert_eq!(cutter.moves[3].to().z, -1.5);
+        assert!((cutter.totals.rapid_length - (4.0 + 7.0)).abs() < 1e-12);
+        let arc = (1.5 * PI).hypot(1.0);
+        assert!((cutter.totals.cut_length - (2.0 + arc)).abs() < 1e-3);
+    }
+
+    #[test]
+    fn an_arc_as_good_as_straight_is_a_line() {
+        let job = Job::new(Units::Mm, 2.0, 1.0);
+        let mut cutter = Cutter::new(&job);
+        cutter.over(point(100.0, 0.0), 0.0);
+        cutter.cut(&Element::arc(point(100.0, 0.0), point(101.0, 0.0), 1e-15));
+        cutter.cut(&Element::arc(point(101.0, 0.0), point(102.0, 0.0), 1e-9));
+        assert_eq!((cutter.totals.lines, cutter.totals.arcs), (1, 1));
+    }
+
+    #[test]
+    fn a_circle_of_two_halves_stays_two_moves() {
+        let job = Job::new(Units::Mm, 2.0, 1.0);
+        let mut cutter = Cutter::new(&job);
+        cutter.over(point(1.0, 0.0), 0.0);
+        for e in crate::geom::ArcSpline::circle(point(0.0, 0.0), 1.0).elements() {
+            cutter.cut(&e);
+        }
+        assert_eq!(cutter.totals.arcs, 2);
+        assert!((cutter.totals.cut_length - 2.0 * PI).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,221 @@
+//! From the axes of the pockets to one path.
+
+use super::cutter::Totals;
+use super::job::MAX_HEIGHTS;
+use super::plan::{IsClear, MAX_MOVES, Planner};
+use super::{Job, Move, Warning};
+use crate::error::Error;
+use crate::geom::Element;
+use crate::mat::{Disk, Mat};
+use crate::offset::Level;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use std::ops::Range;
+
+/// Largest number of levels of a pocket.
+const MAX_LEVELS: u64 = 1_000_000;
+
+/// How many levels are computed before their size is looked at.
+const LEVELS_AT_ONCE: u64 = 256;
+
+/// Moves for all pockets and what they amount to.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Path {
+    /// The moves; none when the tool diameter is 0.
+    pub moves: Vec<Move>,
+    /// The pockets, in the order given.
+    pub pockets: Vec<PocketPath>,
+    /// Lengths, counts and time.
+    pub totals: Totals,
+    /// What could not be done as asked.
+    pub warnings: Vec<Warning>,
+}
+
+/// What became of one pocket. Lengths and areas in job units.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PocketPath {
+    /// The level sets that are used, outermost first.
+    pub levels: Vec<Level>,
+    /// Which of the moves cut this pocket.
+    pub moves: Range<usize>,
+    /// Loops and ridges cut, counted once for each height.
+    pub passes: usize,
+    /// Largest tool diameter that fits, less the stock to leave on both sides.
+    pub largest_tool: f64,
+    /// Area that the tool cannot reach, the stock to leave included.
+    pub unreachable_area: f64,
+    /// Width of the narrowest neck, where there is one.
+    pub narrowest_neck: Option<f64>,
+    /// Whether the tool fits anywhere.
+    pub machined: bool,
+}
+
+impl Job {
+    /// Plans the path through pockets given by their axes.
+    ///
+    /// # Errors
+    /// [`Error::Parameter`] for a number out of its range, [`Error::Effort`] when levels or moves
+    /// are too many, [`Error::NothingToMachine`] when the tool fits nowhere.
+    pub fn path(&self, mats: &[Mat]) -> Result<Path, Error> {
+        let levels = mats.iter().map(|mat| self.levels(mat)).collect::<Result<Vec<_>, _>>()?;
+        self.path_along(mats, levels)
+    }
+
+    /// The level sets of a pocket that the path follows, outermost first; none when the tool fits
+    /// nowhere.
+    ///
+    /// # Errors
+    /// [`Error::Parameter`] for a number out of its range, [`Error::Effort`] when they are too many.
+    pub fn levels(&self, mat: &Mat) -> Result<Vec<Level>, Error> {
+        self.validate()?;
+        self.levels_up_to(mat.largest_disk().radius, &|d| mat.level(d))
+    }
+
+    /// Plans the path along [levels](Job::levels) that are known already, those of each pocket.
+    ///
+    /// # Errors
+    /// As for [`Job::path`].
+    pub fn path_along(&self, mats: &[Mat], levels: Vec<Vec<Level>>) -> Result<Path, Error> {
+        self.validate()?;
+        let mut path = Path::default();
+        self.note_step(&mut path);
+        let mut planner = Planner::new(self);
+        for (pocket, (mat, levels)) in mats.iter().zip(levels).enumerate() {
+            let (largest, neck) = (mat.largest_disk(), mat.narrowest_neck());
+            let mut own = PocketPath {
+                largest_tool: 2.0 * (largest.radius - self.stock),
+                unreachable_area: mat.unreachable_area(self.wall_distance()),
+                narrowest_neck: neck.map(|d| 2.0 * d.radius),
+                machined: !levels.is_empty(),
+                ..PocketPath::default()
+            };
+            self.note_room(&mut path, pocket, &own, largest, neck);
+            let is_clear = |link: &Element, radius: f64| mat.is_clear(link, radius);
+            self.cut(&mut planner, &mut own, levels, &is_clear)?;
+            path.pockets.push(own);
+        }
+        self.conclude(path, planner)
+    }
+
+    fn cut(
+        &self,
+        planner: &mut Planner,
+        own: &mut PocketPath,
+        levels: Vec<Level>,
+        clear: &IsClear,
+    ) -> Result<(), Error> {
+        let before = planner.cutter.moves.len();
+        if self.tool > 0.0 && own.machined {
+            own.passes = planner.pocket(&levels, clear)?;
+        }
+        own.moves = before..planner.cutter.moves.len();
+        own.levels = levels;
+        Ok(())
+    }
+
+    fn conclude(&self, mut path: Path, mut planner: Planner) -> Result<Path, Error> {
+        path.warnings.extend(planner.finish());
+        path.moves = std::mem::take(&mut planner.cutter.moves);
+        path.totals = planner.cutter.totals;
+        if path.pockets.iter().any(|p| p.machined) {
+            return Ok(path);
+        }
+        let largest = path.pockets.iter().map(|p| p.largest_tool).fold(f64::NEG_INFINITY, f64::max);
+        let reason = if path.pockets.is_empty() {
+            "there is no pocket".to_owned()
+        } else if largest > 0.0 {
+            format!(
+                "the tool of {} is larger than every pocket; the largest that fits is {largest:.4}",
+                self.tool
+            )
+        } else {
+            "the stock to leave fills every pocket".to_owned()
+        };
+        Err(Error::NothingToMachine { reason })
+    }
+
+    /// Distances of the levels: that of the wall pass, then equal steps until nothing is left.
+    pub(super) fn distance(&self, k: u64) -> f64 {
+        let k = k as f64;
+        let step = self.used_step();
+        if self.tool == 0.0 {
+            self.stock + (k + 1.0) * step
+        } else if self.finish > 0.0 {
+            if k == 0.0 {
+                self.wall_distance()
+            } else {
+                self.wall_distance() + self.finish + (k - 1.0) * step
+            }
+        } else {
+            self.wall_distance() + k * step
+        }
+    }
+
+    /// The level sets up to the largest radius; the last one may be a ridge alone.
+    pub(super) fn levels_up_to(
+        &self,
+        largest: f64,
+        level: &(dyn Fn(f64) -> Level + Sync),
+    ) -> Result<Vec<Level>, Error> {
+        // One level more than fits, as a level may be left at the largest radius itself.
+        let count = ((largest - self.distance(0)) / self.used_step()).max(0.0).ceil() + 2.0;
+        if count > MAX_LEVELS as f64 {
+            return Err(Error::Effort {
+                what: "the number of levels of a pocket",
+                needed: count as u64,
+                limit: MAX_LEVELS,
+            });
+        }
+        let heights = if self.tool > 0.0 { self.height_count() } else { 1 };
+        if heights > MAX_HEIGHTS {
+            let what = "the number of heights";
+            return Err(Error::Effort { what, needed: heights, limit: MAX_HEIGHTS });
+        }
+        let mut levels: Vec<Level> = Vec::new();
+        let (mut next, mut elements) = (0, 0u64);
+        while next < count as u64 {
+            let end = (next + LEVELS_AT_ONCE).min(count as u64);
+            let some: Vec<Level> = (next..end).into_par_iter().map(|k| level(self.distance(k))).collect();
+            let full = some.iter().take_while(|l| !l.is_empty()).count();
+            elements += some
+                .iter()
+                .flat_map(|l| l.loops.iter().chain(&l.ridges))
+                .map(|s| s.len() as u64)
+                .sum::<u64>();
+            let needed = elements.saturating_mul(heights);
+            if needed > MAX_MOVES {
+                return Err(Error::Effort { what: "the path in moves", needed, limit: MAX_MOVES });
+            }
+            let stop = full < some.len();
+            levels.extend(some.into_iter().take(full));
+            if stop {
+                break;
+            }
+            next = end;
+        }
+        Ok(levels)
+    }
+
+    fn note_step(&self, path: &mut Path) {
+        if self.used_step() < self.step {
+            path.warnings.push(Warning::StepReduced { asked: self.step, used: self.used_step() });
+        }
+    }
+
+    fn note_room(&self, path: &mut Path, pocket: usize, own: &PocketPath, largest: Disk, neck: Option<Disk>) {
+        if !own.machined {
+            let warning = Warning::ToolTooLarge { pocket, at: largest.center, largest: own.largest_tool };
+            path.warnings.push(warning);
+        } else if let Some(neck) = neck
+            && neck.radius < self.wall_distance()
+            && self.tool > 0.0
+        {
+            path.warnings.push(Warning::NarrowNeck {
+                pocket,
+                at: neck.center,
+                width: 2.0 * (neck.radius - self.stock),
+                area: own.unreachable_area,
+            });
+        }
+    }
+}

@@ -1,0 +1,289 @@
+//! The passes of one pocket in order, joined by links, each entered without harm.
+//!
+//! **Needs** the levels of a pocket and a judge of straight links.
+//! **Guarantees** that rapids run at the clearance or straight down into a place already cut that
+//! deep; that a link at depth joins neighbors, is as long as their distance, and stays clear of the
+//! wall by the tool radius and the stock; that a ramped stretch is cut again at depth.
+//! **Does not** shorten the way between pockets or between branches of a pocket.
+
+use super::course::Course;
+use super::cutter::Cutter;
+use super::nest::{Nest, Pass, index};
+use super::{Direction, Entry, Job, Start, Warning};
+use crate::error::Error;
+use crate::geom::{ArcSpline, Bounds, Element, Point};
+use crate::offset::Level;
+
+/// Largest number of moves of a path.
+pub(super) const MAX_MOVES: u64 = 20_000_000;
+
+/// Round-off of a place of a level set, relative to the largest coordinate: the levels come from
+/// axis vertices, which are solved to about this accuracy.
+const LEVEL_ERROR: f64 = 16384.0 * f64::EPSILON;
+
+/// Whether the tool may run along a link with this much room around it.
+pub(super) type IsClear<'a> = dyn Fn(&Element, f64) -> bool + 'a;
+
+/// Plans pockets one after the other.
+pub(super) struct Planner<'a> {
+    job: &'a Job,
+    pub cutter: Cutter<'a>,
+    fallbacks: Vec<Warning>,
+}
+
+/// What is known of the pocket at hand.
+struct Ground<'a> {
+    levels: &'a [Level],
+    nest: Nest,
+    is_clear: &'a IsClear<'a>,
+    slack: f64,
+    /// Passes cut at the height at hand.
+    done: Vec<bool>,
+    /// The pass in whose end the tool stands.
+    last: Option<usize>,
+}
+
+/// From where to where one height is cut.
+#[derive(Clone, Copy)]
+struct Height {
+    surface: f64,
+    z: f64,
+}
+
+impl<'a> Planner<'a> {
+    /// A planner without moves yet.
+    pub fn new(job: &'a Job) -> Planner<'a> {
+        Planner { job, cutter: Cutter::new(job), fallbacks: Vec::new() }
+    }
+
+    /// Cuts a pocket and answers the number of passes.
+    pub fn pocket(&mut self, levels: &[Level], is_clear: &IsClear) -> Result<usize, Error> {
+        let bounds = levels
+            .iter()
+            .take(1)
+            .flat_map(|l| l.loops.iter().chain(&l.ridges))
+            .fold(Bounds::EMPTY, |b, s| b.union(s.bounds()));
+        let slack = LEVEL_ERROR * bounds.magnitude();
+        let nest = Nest::new(levels, slack);
+        let order = nest.order(self.job.start);
+        let done = vec![false; order.len()];
+        let last = self.last_passes(levels, &nest);
+        let mut ground = Ground { levels, nest, is_clear, slack, done, last: None };
+        let needed = order.into_iter().filter(|&p| !ground.is_covered(p));
+        let (wall, rough): (Vec<usize>, Vec<usize>) = needed.partition(|&p| last[p]);
+        let heights = self.job.heights();
+        let mut surface = self.job.top;
+        for &z in &heights {
+            ground.done.fill(false);
+            ground.last = None;
+            self.passes(&mut ground, &rough, Height { surface, z })?;
+            surface = z;
+        }
+        self.passes(&mut ground, &wall, Height { surface: self.job.top, z: surface })?;
+        Ok(rough.len() * heights.len() + wall.len())
+    }
+
+    /// Ends the path; answers the warnings.
+    pub fn finish(&mut self) -> Vec<Warning> {
+        self.cutter.leave();
+        std::mem::take(&mut self.fallbacks)
+    }
+
+    /// Which passes wait for roughing to reach the floor and then take the finishing stock off the
+    /// wall. Where a wall pass would run through full stock, because roughing was nowhere near, it
+    /// is cut with roughing, height by height.
+    fn last_passes(&self, levels: &[Level], nest: &Nest) -> Vec<bool> {
+        if self.job.finish <= 0.0 || levels.len() < 2 {
+            return vec![false; nest.passes.len()];
+        }
+        let radius = self.job.radius();
+        let roughing = index(&levels[1]);
+        let is_near = |e: Element| {
+            let parts = (e.length() / radius).ceil().max(1.0);
+            (0..=parts as usize).all(|i| {
+                let p = e.point_at(i as f64 / parts);
+                let near = roughing.nearest_neighbor(&[p.x, p.y]);
+                near.is_some_and(|n| n.element.distance(p) <= radius)
+            })
+        };
+        let is_last = |p: &Pass| {
+            p.level == 0 && levels[0].loops.get(p.index).is_some_and(|s| s.elements().all(is_near))
+        };
+        nest.passes.iter().map(is_last).collect()
+    }
+
+    fn passes(&mut self, ground: &mut Ground, order: &[usize], height: Height) -> Result<(), Error> {
+        for (i, &pass) in order.iter().enumerate() {
+            self.pass(ground, pass, order.get(i + 1).copied(), height)?;
+        }
+        Ok(())
+    }
+
+    fn pass(
+        &mut self,
+        ground: &mut Ground,
+        pass: usize,
+        next: Option<usize>,
+        height: Height,
+    ) -> Result<(), Error> {
+        let Some(course) = Course::along(ground.spline(pass), self.is_backwards(ground, pass)) else {
+            return Ok(());
+        };
+        self.afford(course.elements.len() as u64)?;
+        let linked = self.link(ground, pass, &course);
+        let course = match linked.or_else(|| self.door(ground, pass, &course, height)) {
+            Some(course) => course,
+            None => {
+                let place = ground.toward(pass, next).unwrap_or_else(|| course.calm_place());
+                let place = course.nearest(place);
+                self.enter(course.begun_at(place, ground.slack), height)?
+            }
+        };
+        for e in &course.elements {
+            self.cutter.cut(e);
+        }
+        ground.done[pass] = true;
+        ground.last = Some(pass);
+        Ok(())
+    }
+
+    fn afford(&self, more: u64) -> Result<(), Error> {
+        let needed = self.cutter.moves.len() as u64 + more;
+        if needed > MAX_MOVES {
+            return Err(Error::Effort { what: "the path in moves", needed, limit: MAX_MOVES });
+        }
+        Ok(())
+    }
+
+    /// Loops of a level run with the inner side on the left: climb, as long as the uncut stock is
+    /// outside, as it is for wall passes and for all passes from the inside out.
+    fn is_backwards(&self, ground: &Ground, pass: usize) -> bool {
+        let walls = if self.job.finish > 0.0 { 2 } else { 1 };
+        let inward = self.job.start == Start::Outside && ground.nest.passes[pass].level >= walls;
+        inward != (self.job.direction == Direction::Conventional)
+    }
+
+    /// Straight on from the end of the last pass, where that is a neighbor.
+    fn link(&mut self, ground: &Ground, pass: usize, course: &Course) -> Option<Course> {
+        let last = ground.last?;
+        let doors = ground.nest.inner[pass].iter().chain(&ground.nest.outer[pass]);
+        doors.into_iter().find(|d| d.pass == last)?;
+        let here = self.cutter.at()?;
+        let begun = course.clone().begun_at(course.nearest(here), ground.slack);
+        let link = Element::segment(here, begun.start);
+        if !self.may_link(ground, &link, pass, last) {
+            return None;
+        }
+        self.cutter.cut(&link);
+        Some(begun)
+    }
+
+    /// Down beside the pass, into a neighbor that is already cut, and straight over from there.
+    fn door(&mut self, ground: &Ground, pass: usize, course: &Course, height: Height) -> Option<Course> {
+        let here = self.cutter.at()?;
+        let inner = ground.nest.inner[pass].iter().map(|d| (d, true));
+        let outer = ground.nest.outer[pass].iter().map(|d| (d, false));
+        let open = inner.chain(outer).filter(|(d, _)| ground.done[d.pass]);
+        let (door, inside) =
+            open.min_by(|(a, _), (b, _)| a.at.distance(here).total_cmp(&b.at.distance(here)))?;
+        let begun = course.clone().begun_at(course.nearest(door.at), ground.slack);
+        let from = if inside {
+            door.at
+        } else {
+            Course::along(ground.spline(door.pass), false)?.nearest(begun.start).point
+        };
+        let link = Element::segment(from, begun.start);
+        if !self.may_link(ground, &link, pass, door.pass) {
+            return None;
+        }
+        self.cutter.over(from, height.z);
+        self.cutter.plunge(height.z);
+        self.cutter.cut(&link);
+        Some(begun)
+    }
+
+    fn may_link(&self, ground: &Ground, link: &Element, a: usize, b: usize) -> bool {
+        let distance = |pass: usize| ground.levels[ground.nest.passes[pass].level].distance;
+        let apart = (distance(a) - distance(b)).abs();
+        link.length() <= apart + ground.slack && (ground.is_clear)(link, self.job.wall_distance())
+    }
+
+    /// Down into full stock: along the pass where it is long enough, else straight.
+    fn enter(&mut self, course: Course, height: Height) -> Result<Course, Error> {
+        let length = course.length();
+        if self.job.entry == Entry::Plunge || length <= self.job.radius() {
+            self.fell_back(Entry::Plunge, course.start);
+            self.cutter.over(course.start, height.surface);
+            self.cutter.plunge(height.z);
+            return Ok(course);
+        }
+        self.fell_back(Entry::Ramp, course.start);
+        let slope = self.job.ramp_angle.to_radians();
+        let run = (height.surface - height.z) / slope.tan();
+        self.afford(((run / length).ceil() as u64).saturating_mul(course.elements.len() as u64))?;
+        let ramp = if course.closed { course.tail(run) } else { to_and_fro(&course, run) };
+        let rate = self.job.feed.min(self.job.plunge_feed / slope.sin());
+        self.cutter.over(ramp.first().map_or(course.start, |e| e.start), height.surface);
+        self.cutter.plunge(height.surface);
+        let whole: f64 = ramp.iter().map(Element::length).sum();
+        let mut gone = 0.0;
+        for (i, e) in ramp.iter().enumerate() {
+            gone += e.length();
+            let z = height.surface + (height.z - height.surface) * (gone / whole).min(1.0);
+            self.cutter.follow(e, if i + 1 == ramp.len() { height.z } else { z }, rate);
+        }
+        Ok(course)
+    }
+
+    fn fell_back(&mut self, to: Entry, place: Point) {
+        if to == self.job.entry {
+            return;
+        }
+        for known in &mut self.fallbacks {
+            if let Warning::EntryFallback { used, count, .. } = known
+                && *used == to
+            {
+                *count += 1;
+                return;
+            }
+        }
+        let warning = Warning::EntryFallback { asked: self.job.entry, used: to, count: 1, at: place };
+        self.fallbacks.push(warning);
+    }
+}
+
+impl Ground<'_> {
+    fn spline(&self, pass: usize) -> &ArcSpline {
+        let Pass { level, index } = self.nest.passes[pass];
+        let level = &self.levels[level];
+        level.loops.get(index).unwrap_or_else(|| &level.ridges[index - level.loops.len()])
+    }
+
+    /// Whether a pass is a single place with a loop round it: all that the tool cuts there is no
+    /// farther from that loop than the step, and plunging there would only harm.
+    fn is_covered(&self, pass: usize) -> bool {
+        self.spline(pass).is_empty() && !self.nest.outer[pass].is_empty()
+    }
+
+    /// A place of the pass from which the next one lies straight across, if that is a neighbor.
+    fn toward(&self, pass: usize, next: Option<usize>) -> Option<Point> {
+        let doors = self.nest.outer[pass].iter().chain(&self.nest.inner[pass]);
+        doors.into_iter().find(|d| Some(d.pass) == next).map(|d| d.at)
+    }
+}
+
+/// An open course run to and fro, at least as long as `run`, so that it ends where the course
+/// begins.
+fn to_and_fro(course: &Course, run: f64) -> Vec<Element> {
+    let times = (run / course.length()).ceil().max(1.0) as usize;
+    let back = || course.elements.iter().rev().map(Element::reversed);
+    let mut ramp = Vec::with_capacity(times * course.elements.len());
+    for i in (0..times).rev() {
+        if i % 2 == 0 {
+            ramp.extend(back());
+        } else {
+            ramp.extend_from_slice(&course.elements);
+        }
+    }
+    ramp
+}
