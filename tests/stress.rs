@@ -7,7 +7,8 @@ fn run(kind: &str, seeds: std::ops::Range<u64>, size: usize) -> (usize, Vec<Stri
     let mut failures = Vec::new();
     let mut sites = 0;
     for seed in seeds {
-        let pocket = medial::Pocket::from_loops(shapes::make(kind, size, seed), medial::Tolerance::MM).unwrap();
+        let pocket =
+            medial::Pocket::from_loops(shapes::make(kind, size, seed), medial::Tolerance::MM).unwrap();
         match pocket.medial_axis() {
             Err(e) => failures.push(format!("{kind} {seed}: {e}")),
             Ok(mat) => {

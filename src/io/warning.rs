@@ -190,6 +190,8 @@ fn defect_kind(defect: &Defect) -> &'static str {
         Defect::Duplicates { .. } => "duplicates",
         Defect::Crossing { .. } => "crossing",
         Defect::SelfCrossing { .. } => "self-crossing",
+        Defect::MoreCrossings { .. } => "more-crossings",
+        Defect::NotOnePocket { .. } => "not-one-pocket",
         Defect::Coordinate { .. } => "coordinate",
         Defect::NoArea { .. } => "no-area",
     }
@@ -234,6 +236,8 @@ mod tests {
             Defect::Duplicates { count: 1, at },
             Defect::Crossing { at },
             Defect::SelfCrossing { at },
+            Defect::MoreCrossings { count: 1, at },
+            Defect::NotOnePocket { count: 2, at },
             Defect::Coordinate { at },
             Defect::NoArea { at },
         ];

@@ -43,5 +43,4 @@ pub(crate) use face::falling_root;
 pub(crate) use graph::{BoundaryPiece, DISK_ERROR, GraphEdge};
 pub(crate) use lamination::Piece;
 pub(crate) use site::{Foot, NONE, Site};
-pub(crate) use touch::foot_of;
 pub(crate) use track::Track;
