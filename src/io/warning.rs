@@ -192,6 +192,8 @@ fn defect_kind(defect: &Defect) -> &'static str {
         Defect::SelfCrossing { .. } => "self-crossing",
         Defect::Coordinate { .. } => "coordinate",
         Defect::NoArea { .. } => "no-area",
+        Defect::MoreCrossings { .. } => "more-crossings",
+        Defect::NotOnePocket { .. } => "not-one-pocket",
     }
 }
 
@@ -236,6 +238,8 @@ mod tests {
             Defect::SelfCrossing { at },
             Defect::Coordinate { at },
             Defect::NoArea { at },
+            Defect::MoreCrossings { count: 1, at },
+            Defect::NotOnePocket { count: 2, at },
         ];
         for defect in others.into_iter().chain([open]) {
             assert_eq!(serde_json::to_value(&defect).unwrap()["kind"], defect_kind(&defect));
