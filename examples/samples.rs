@@ -122,7 +122,7 @@ fn nested() -> String {
     dxf.polyline(&rectangle(8.0, 8.0, 44.0, 34.0));
     dxf.circle(24.0, 25.0, 12.0);
     dxf.circle(24.0, 25.0, 5.0);
-    dxf.polyline(&[(40.0, 16.0, 0.0), (48.0, 16.0, 1.0), (48.0, 34.0, 0.0), (40.0, 34.0, 0.0)]);
+    dxf.polyline(&[(40.0, 19.0, 0.0), (41.0, 19.0, 1.0), (41.0, 31.0, 0.0), (40.0, 31.0, 0.0)]);
     dxf.circle(90.0, 25.0, 25.0);
     let hexagon: Vec<_> = (0..6)
         .map(|corner| f64::from(corner) * TAU / 6.0)

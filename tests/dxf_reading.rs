@@ -217,7 +217,7 @@ fn a_file_that_is_no_drawing_is_refused_with_the_cure() {
     assert!(refusal(b"\xFF\xFE0\0\n\0").contains("UTF-16"));
     assert!(refusal(b"this is a letter\n").contains("line 1"));
     assert!(refusal(b"1\n2\n3\n4\n").contains("section"));
-    assert!(refusal(b"AutoCAD Binary DXF\r\n\x1a\0\0SECT").contains("input"));
+    assert!(refusal(b"AutoCAD Binary DXF\r\n\x1a\0\0SECT").contains("section"));
     assert!(refusal(drawing("0 LINE").replace("70\n4\n", "70\n20\n").as_bytes()).contains("parsec"));
 }
 

@@ -194,6 +194,8 @@ fn defect_kind(defect: &Defect) -> &'static str {
         Defect::NotOnePocket { .. } => "not-one-pocket",
         Defect::Coordinate { .. } => "coordinate",
         Defect::NoArea { .. } => "no-area",
+        Defect::MoreCrossings { .. } => "more-crossings",
+        Defect::NotOnePocket { .. } => "not-one-pocket",
     }
 }
 
@@ -240,6 +242,8 @@ mod tests {
             Defect::NotOnePocket { count: 2, at },
             Defect::Coordinate { at },
             Defect::NoArea { at },
+            Defect::MoreCrossings { count: 1, at },
+            Defect::NotOnePocket { count: 2, at },
         ];
         for defect in others.into_iter().chain([open]) {
             assert_eq!(serde_json::to_value(&defect).unwrap()["kind"], defect_kind(&defect));

@@ -1,6 +1,6 @@
 //! From the bytes of a file to curves.
 
-use super::binary;
+use super::binary::{is_binary, to_text};
 use super::records::{Contents, KINDS};
 use super::select::Selection;
 use super::shape::{Skip, shape};
@@ -11,14 +11,12 @@ use crate::error::Error;
 use crate::io::{DrawingUnit, Scale, Warning};
 use crate::tolerance::Units;
 use ::dxf::entities::EntityType;
+use std::borrow::Cow;
 use std::io::Cursor;
 use std::path::Path;
 
 /// Largest file that is read, in bytes: the parser needs about twenty times as much memory.
 const MAX_BYTES: u64 = 1 << 29;
-
-/// How a binary DXF begins.
-const BINARY: &[u8] = b"AutoCAD Binary DXF";
 
 /// Reads a drawing.
 ///
@@ -51,14 +49,11 @@ pub fn read_bytes(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<Dra
     if let Some(reason) = other_format(bytes) {
         return Err(no_drawing(reason.into()));
     }
-    let (contents, parsed, whose) = if bytes.starts_with(BINARY) {
-        let parsed = parse(bytes).map_err(no_drawing)?;
-        (binary::contents(&parsed), parsed, Whose::InOrder)
-    } else {
-        let mut contents = text_contents(bytes).map_err(no_drawing)?;
-        let parsed = parse(&std::mem::take(&mut contents.geometry)).map_err(no_drawing)?;
-        (contents, parsed, Whose::ByHandle)
-    };
+    let text = if is_binary(bytes) { Cow::Owned(to_text(bytes).map_err(no_drawing)?) } else { bytes.into() };
+    let mut contents = contents(&text).map_err(no_drawing)?;
+    drop(text);
+    let geometry = std::mem::take(&mut contents.geometry);
+    let parsed = ::dxf::Drawing::load(&mut Cursor::new(geometry)).map_err(|e| no_drawing(e.to_string()))?;
     let unit = Unit::of(&contents, options);
     let units = options.units.or(unit.unit.job()).unwrap_or_default();
     let Some(scale) = Scale::new(unit.unit, units) else {
@@ -68,7 +63,7 @@ pub fn read_bytes(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<Dra
     if !contents.ended {
         warnings.push(Warning::Truncated);
     }
-    let (curves, met) = curves(&contents, shapes(&parsed, whose), scale, options);
+    let (curves, met) = curves(&contents, shapes(&parsed), scale, options);
     warnings.extend(met);
     Ok(Drawing { name: name.to_owned(), units, curves, warnings })
 }
@@ -115,8 +110,8 @@ fn curves<'a>(
 }
 
 /// The contents of a text DXF.
-fn text_contents(bytes: &[u8]) -> Result<Contents, String> {
-    let contents = Contents::new(bytes).map_err(|bad| {
+fn contents(text: &[u8]) -> Result<Contents, String> {
+    let contents = Contents::new(text).map_err(|bad| {
         format!(
             "line {} should hold the number of a group, but holds `{}`",
             bad.line,
@@ -126,28 +121,12 @@ fn text_contents(bytes: &[u8]) -> Result<Contents, String> {
     if contents.sections || contents.ended { Ok(contents) } else { Err("it has no section of a DXF".into()) }
 }
 
-/// Which record a parsed entity belongs to.
-#[derive(Clone, Copy)]
-enum Whose {
-    /// The one at the same place.
-    InOrder,
-    /// The one that its handle is the index of, plus 1.
-    ByHandle,
-}
-
 /// The parsed entities, each with the index of its record.
-fn shapes(parsed: &::dxf::Drawing, whose: Whose) -> impl Iterator<Item = (usize, &EntityType)> {
-    parsed.entities().enumerate().map(move |(place, entity)| {
-        let index = match whose {
-            Whose::InOrder => place,
-            Whose::ByHandle => usize::try_from(entity.common.handle.0).unwrap_or(0).wrapping_sub(1),
-        };
+fn shapes(parsed: &::dxf::Drawing) -> impl Iterator<Item = (usize, &EntityType)> {
+    parsed.entities().map(|entity| {
+        let index = usize::try_from(entity.common.handle.0).unwrap_or(0).wrapping_sub(1);
         (index, &entity.specific)
     })
-}
-
-fn parse(bytes: &[u8]) -> Result<::dxf::Drawing, String> {
-    ::dxf::Drawing::load(&mut Cursor::new(bytes)).map_err(|e| e.to_string())
 }
 
 /// What a file is that is no DXF, as far as its first bytes tell, and what to do.

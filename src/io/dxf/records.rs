@@ -5,9 +5,9 @@
 //! besides. **Does not** look into blocks or read geometry.
 //!
 //! **Method.** The parser refuses a whole file for one number or group code that it does not
-//! expect, drops entities without a word, and does not read which layers are frozen. So it gets
-//! only checked numbers of the kinds that are read, and knows an entity by its index here, which
-//! is written in the place of its handle.
+//! expect, drops entities without a word, panics at dates out of range, and does not read which
+//! layers are frozen. So it gets only checked numbers of the kinds that are read, and knows an
+//! entity by its index here, which is written in the place of its handle.
 
 use super::tags::{BadTag, Tag, Tags, number, text};
 
