@@ -194,8 +194,6 @@ fn defect_kind(defect: &Defect) -> &'static str {
         Defect::NotOnePocket { .. } => "not-one-pocket",
         Defect::Coordinate { .. } => "coordinate",
         Defect::NoArea { .. } => "no-area",
-        Defect::MoreCrossings { .. } => "more-crossings",
-        Defect::NotOnePocket { .. } => "not-one-pocket",
     }
 }
 

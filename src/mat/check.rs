@@ -4,15 +4,16 @@ use super::bvh::SearchDisk;
 use super::graph::Graph;
 use super::lamination::UnitDisk;
 use super::track::Track;
+use super::union::Sets;
 use super::{Mat, Mismatch};
 use crate::geom::Point;
 
-/// Residuals up to this fraction of the size are round-off.
+/// Residuals up to this many times the round-off of a drawn coordinate are round-off.
 ///
-/// A footpoint disk is computed with some 30 roundings of numbers up to 1; where the two sites it
-/// hangs between have nearly equal normals (a corner of a few seconds of arc), the radius loses the
-/// digits of their angle, but the residual only to first order. 2^17 ulps leave room for both.
-pub(super) const RESIDUAL_ERROR: f64 = 131_072.0 * f64::EPSILON;
+/// A disk is computed with some 30 roundings of numbers up to 1; where the two sites it hangs between
+/// have nearly equal normals (a corner of a few seconds of arc), or where a short arc is drawn with
+/// rounded ends, digits of their angle are lost. 2^17 leaves room for both.
+pub(super) const RESIDUAL_ROUNDINGS: f64 = 131_072.0;
 
 impl Mat {
     /// Holds the axis against its boundary: every disk touches both its sites and contains no
@@ -59,12 +60,16 @@ impl Mat {
                 note(beyond.max(0.0), disk.center, &mut residuals.monotone);
             }
         }
-        let scale = 1.0;
-        if worst.0 <= RESIDUAL_ERROR * scale {
+        if worst.0 <= self.residual_error() {
             Ok(residuals)
         } else {
             Err(Mismatch::Residual { relative: worst.0, at: self.frame.leave(worst.1) })
         }
+    }
+
+    /// Largest residual that is round-off, in the unit frame.
+    pub(super) fn residual_error(&self) -> f64 {
+        RESIDUAL_ROUNDINGS * self.frame.noise
     }
 
     /// How far the boundary reaches into a disk.
@@ -74,7 +79,7 @@ impl Mat {
 
     /// Distance of a place to the boundary, in the unit frame, if it is at most about `limit`.
     pub(super) fn unit_distance(&self, c: Point, limit: f64) -> f64 {
-        let mut best = limit + RESIDUAL_ERROR;
+        let mut best = limit + self.residual_error();
         self.bvh.search(SearchDisk { center: c, radius: best }, |i| {
             let d = self.sites[i as usize].distance(c);
             (d < best).then(|| {
@@ -99,23 +104,9 @@ impl Mat {
 }
 
 fn components(graph: &Graph) -> usize {
-    let mut root: Vec<u32> = (0..graph.disks.len() as u32).collect();
-    fn find(root: &mut [u32], mut i: u32) -> u32 {
-        while root[i as usize] != i {
-            root[i as usize] = root[root[i as usize] as usize];
-            i = root[i as usize];
-        }
-        i
-    }
-    let mut count = root.len();
-    for edge in &graph.edges {
-        let [a, b] = edge.disks.map(|d| find(&mut root, d));
-        if a != b {
-            root[a.max(b) as usize] = a.min(b);
-            count -= 1;
-        }
-    }
-    count
+    let mut sets = Sets::singles(graph.disks.len());
+    let joined = graph.edges.iter().filter(|e| sets.unite(e.disks[0], e.disks[1])).count();
+    graph.disks.len() - joined
 }
 
 /// Largest residuals of an axis, relative to the size of the pocket.

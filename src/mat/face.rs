@@ -11,7 +11,7 @@
 //! faces have a hierarchy of boxes over the array.
 
 use super::bvh::{Bvh, SearchDisk};
-use super::graph::{DISK_ERROR, Graph};
+use super::graph::Graph;
 use super::lamination::{Piece, UnitDisk};
 use super::site::{Foot, Site};
 use super::touch::{Contact, Probe, foot_of};
@@ -143,8 +143,25 @@ impl<'a> Face<'a> {
             if spread(branch.feet) >= WELL_SPREAD {
                 return branch;
             }
-            return self.best_of_ties(&track, &branch, graph, sub).unwrap_or(branch);
+            let tie = self.chord_disk(&branch, graph, sub);
+            return tie.or_else(|| self.best_of_ties(&track, &branch, graph, sub)).unwrap_or(branch);
         }
+    }
+
+    /// A disk of the face's own chords that touches the three pieces of a branch: where many pieces
+    /// touch one disk, the first branches are defined by far ones, and later ones must not be made
+    /// anew from three neighbors.
+    fn chord_disk(&self, branch: &Branch, graph: &Graph, sub: &SubFace) -> Option<Branch> {
+        let (third, last) = (branch.third, sub.len() - 1);
+        let pieces = [0, 1, third].map(|i| &graph.pieces[sub.get(self.slots, i).piece as usize].piece);
+        let sites = pieces.map(|p| &self.sites[p.site as usize]);
+        [0, 1, third - 1, third, last].into_iter().find_map(|i| {
+            let disk = graph.disks[sub.get(self.slots, i).disk as usize];
+            let parts = [0, 1, 2].map(|i| Site { start: pieces[i].from, end: pieces[i].to, ..*sites[i] });
+            let touches = |part: &Site| (part.distance(disk.center) - disk.radius).abs() <= graph.error;
+            let feet = || [0, 1, 2].map(|i| foot_of(sites[i], disk.center, &pieces[i].from, &pieces[i].to));
+            (disk.radius > 0.0 && parts.iter().all(touches)).then(|| Branch { disk, feet: feet(), third })
+        })
     }
 
     /// Where more pieces touch the same disk, to round-off, than the three that define it: the disk
@@ -158,7 +175,7 @@ impl<'a> Face<'a> {
     ) -> Option<Branch> {
         let defined = spread(branch.feet);
         // What a disk is uncertain by when it is divided by so little.
-        let error = DISK_ERROR / defined.max(DISK_ERROR);
+        let error = graph.error / defined.max(graph.error);
         let mut best = (defined, branch.third);
         self.near_disk(sub, branch.disk, error, |i| {
             let other = &graph.pieces[sub.get(self.slots, i).piece as usize].piece;

@@ -5,6 +5,7 @@ use super::lamination::{Lamination, Piece, UnitDisk, cut_vertex};
 use super::site::{Foot, NONE, Site};
 use super::touch::foot_of;
 use super::track::Track;
+use super::union::Sets;
 
 /// A piece with its place on the boundary and in the axis.
 #[derive(Clone, Copy, Debug)]
@@ -32,16 +33,19 @@ pub(crate) struct Graph {
     pub disks: Vec<UnitDisk>,
     pub pieces: Vec<BoundaryPiece>,
     pub edges: Vec<GraphEdge>,
+    /// Round-off of a disk, in the unit frame: closer disks are one, closer radii equal.
+    pub error: f64,
 }
 
-/// Round-off of a disk: its center and radius, from four numbers up to 1 with eight roundings each.
-pub(crate) const DISK_ERROR: f64 = 32.0 * f64::EPSILON;
+/// Roundings in a disk: its center and radius come from four numbers with eight roundings each. Times
+/// the round-off of a drawn coordinate that is the distance within which disks are one and radii equal.
+pub(super) const DISK_ROUNDINGS: f64 = 32.0;
 
 impl Graph {
     /// The graph of a lamination: all faces solved.
-    pub(super) fn of(sites: &[Site], map: Lamination) -> Graph {
+    pub(super) fn of(sites: &[Site], map: Lamination, error: f64) -> Graph {
         let follow = map.boundary_order(map.item_count(sites));
-        let mut graph = Graph { disks: map.disks.clone(), ..Graph::default() };
+        let mut graph = Graph { disks: map.disks.clone(), error, ..Graph::default() };
         let before = |i: u32, row: &std::ops::Range<u32>| if i == row.start { row.end - 1 } else { i - 1 };
         for row in &map.rows {
             for i in row.clone() {
@@ -107,30 +111,21 @@ impl Graph {
     /// Ties leave such edges between disks that differ by round-off only. Edges are contracted one
     /// by one while their ends are different vertices, so V - E stays what it is.
     pub(super) fn contract(&mut self) {
-        let mut root: Vec<u32> = (0..self.disks.len() as u32).collect();
-        fn find(root: &mut [u32], mut i: u32) -> u32 {
-            while root[i as usize] != i {
-                root[i as usize] = root[root[i as usize] as usize];
-                i = root[i as usize];
-            }
-            i
-        }
+        let mut same = Sets::singles(self.disks.len());
         let mut kept = Vec::with_capacity(self.edges.len());
         for edge in std::mem::take(&mut self.edges) {
-            let [a, b] = edge.disks.map(|d| find(&mut root, d));
+            // The older disk stays for both: it comes from a joint, not from an intersection.
+            let [a, b] = edge.disks.map(|d| same.find(d));
             let (da, db) = (&self.disks[a as usize], &self.disks[b as usize]);
             let apart = da.center.distance(db.center) + (da.radius - db.radius).abs();
-            if a != b && apart <= DISK_ERROR {
-                // The older disk stays: it comes from a joint, not from an intersection.
-                root[a.max(b) as usize] = a.min(b);
-            } else {
+            if !(apart <= self.error && same.unite(a, b)) {
                 kept.push(edge);
             }
         }
         let mut number = vec![NONE; self.disks.len()];
         let mut disks = Vec::with_capacity(self.disks.len());
         for i in 0..self.disks.len() as u32 {
-            let r = find(&mut root, i) as usize;
+            let r = same.find(i) as usize;
             if number[r] == NONE {
                 number[r] = disks.len() as u32;
                 disks.push(self.disks[r]);
@@ -190,7 +185,7 @@ impl Graph {
         let ends = edge.disks.map(|d| self.disks[d as usize].radius);
         let beyond = if minimum { ends[0].min(ends[1]) - radius } else { radius - ends[0].max(ends[1]) };
         // Where the radius is as good as constant, round-off makes extrema that are none.
-        if !(beyond > DISK_ERROR && radius.is_finite()) {
+        if !(beyond > self.error && radius.is_finite()) {
             return;
         }
         let disk = UnitDisk { center: probe.center(radius), radius };

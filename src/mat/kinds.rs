@@ -5,7 +5,8 @@
 //! falls away a peak; their vertices of degree 2 are called so.
 
 use super::Kind;
-use super::graph::{DISK_ERROR, Graph};
+use super::graph::Graph;
+use super::union::Sets;
 
 /// Kind of every vertex, and whether it lies on a neck (also when it is a branch).
 #[derive(Clone, Debug)]
@@ -27,14 +28,13 @@ impl Kinds {
     pub fn of(graph: &Graph) -> Kinds {
         let n = graph.disks.len();
         let mut degree = vec![0u32; n];
-        let mut plateau: Vec<u32> = (0..n as u32).collect();
+        let mut plateau = Sets::singles(n);
         for edge in &graph.edges {
             let [a, b] = edge.disks;
             degree[a as usize] += 1;
             degree[b as usize] += 1;
             if is_level(graph, a, b) {
-                let (ra, rb) = (find(&mut plateau, a), find(&mut plateau, b));
-                plateau[ra.max(rb) as usize] = ra.min(rb);
+                plateau.unite(a, b);
             }
         }
         let mut ways = vec![Ways::default(); n];
@@ -44,17 +44,17 @@ impl Kinds {
                 continue;
             }
             let (low, high) = if radius(graph, a) < radius(graph, b) { (a, b) } else { (b, a) };
-            ways[find(&mut plateau, low) as usize].up += 1;
-            ways[find(&mut plateau, high) as usize].down += 1;
+            ways[plateau.find(low) as usize].up += 1;
+            ways[plateau.find(high) as usize].down += 1;
         }
         let mut kinds = Vec::with_capacity(n);
         let mut on_neck = Vec::with_capacity(n);
         let mut on_peak = Vec::with_capacity(n);
         for (i, &degree) in degree.iter().enumerate() {
-            let way = ways[find(&mut plateau, i as u32) as usize];
+            let way = ways[plateau.find(i as u32) as usize];
             let neck = way.down == 0 && way.up >= 2;
             let peak = way.up == 0 && way.down > 0;
-            on_neck.push(neck && graph.disks[i].radius > 0.0);
+            on_neck.push(neck && graph.disks[i].radius > graph.error);
             on_peak.push(way.up == 0);
             kinds.push(match degree {
                 0 => Kind::Peak,
@@ -74,13 +74,5 @@ fn radius(graph: &Graph, i: u32) -> f64 {
 }
 
 fn is_level(graph: &Graph, a: u32, b: u32) -> bool {
-    (radius(graph, a) - radius(graph, b)).abs() <= DISK_ERROR
-}
-
-fn find(root: &mut [u32], mut i: u32) -> u32 {
-    while root[i as usize] != i {
-        root[i as usize] = root[root[i as usize] as usize];
-        i = root[i as usize];
-    }
-    i
+    (radius(graph, a) - radius(graph, b)).abs() <= graph.error
 }

@@ -33,6 +33,7 @@ mod splice;
 mod touch;
 mod track;
 mod transform;
+mod union;
 mod vertex;
 
 pub use check::Residuals;
@@ -40,7 +41,8 @@ pub use transform::{Counts, Mat, Mismatch};
 pub use vertex::{AxisEdge, AxisVertex, Disk, Kind, SiteKind, SiteRef};
 
 pub(crate) use face::falling_root;
-pub(crate) use graph::{BoundaryPiece, DISK_ERROR, GraphEdge};
+pub(crate) use graph::{BoundaryPiece, GraphEdge};
 pub(crate) use lamination::Piece;
 pub(crate) use site::{Foot, NONE, Site};
 pub(crate) use track::Track;
+pub(crate) use union::Sets;

@@ -1,8 +1,6 @@
 //! Questions to a finished axis.
 
 use super::bvh::SearchDisk;
-use super::check::RESIDUAL_ERROR;
-use super::graph::DISK_ERROR;
 use super::site::Site;
 use super::{Disk, Mat};
 use crate::geom::{Element, Point};
@@ -37,8 +35,8 @@ impl Mat {
             end: self.frame.enter(path.end),
             bulge: path.bulge,
         };
-        let needed = self.frame.length_in(radius) - DISK_ERROR;
-        let reach = 0.5 * inside.length() + needed.max(0.0) + RESIDUAL_ERROR;
+        let needed = self.frame.length_in(radius) - self.graph.error;
+        let reach = 0.5 * inside.length() + needed.max(0.0) + self.residual_error();
         let mut clear = true;
         let around = SearchDisk { center: inside.point_at(0.5), radius: reach };
         self.bvh.search(around, |i| {

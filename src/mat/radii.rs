@@ -1,6 +1,6 @@
 //! Where on the axis the radius takes a value, without looking at all of it.
 
-use super::graph::{DISK_ERROR, Graph};
+use super::graph::Graph;
 use super::kinds::Kinds;
 use super::site::NONE;
 
@@ -15,6 +15,8 @@ pub(crate) struct Radii {
     pub rings: Vec<(u32, f64)>,
     /// Vertices on peaks, sorted by radius.
     peaks: Vec<(f64, u32)>,
+    /// Radii closer than this are equal.
+    error: f64,
 }
 
 impl Radii {
@@ -37,17 +39,17 @@ impl Radii {
             .map(|i| (graph.disks[i as usize].radius, i))
             .collect();
         peaks.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        Radii { low, high, rings: rings(graph), peaks }
+        Radii { low, high, rings: rings(graph), peaks, error: graph.error }
     }
 
     /// Edges whose radii reach from below or at `d` to `d` or above, to round-off, in order of id.
     pub fn edges_at(&self, d: f64) -> Vec<u32> {
-        let end = self.low.partition_point(|&(low, _)| low <= d + DISK_ERROR);
+        let end = self.low.partition_point(|&(low, _)| low <= d + self.error);
         let leaves = self.high.len() / 2;
         let mut found = Vec::new();
         let mut open = vec![(1usize, 0usize, leaves)];
         while let Some((node, first, count)) = open.pop() {
-            if first >= end || self.high[node] < d - DISK_ERROR {
+            if first >= end || self.high[node] < d - self.error {
                 continue;
             }
             if count == 1 {
@@ -63,8 +65,8 @@ impl Radii {
 
     /// Vertices on peaks of radius `d`, to round-off.
     pub fn peaks_at(&self, d: f64) -> impl Iterator<Item = u32> + '_ {
-        let first = self.peaks.partition_point(|&(r, _)| r < d - DISK_ERROR);
-        self.peaks[first..].iter().take_while(move |(r, _)| *r <= d + DISK_ERROR).map(|&(_, i)| i)
+        let first = self.peaks.partition_point(|&(r, _)| r < d - self.error);
+        self.peaks[first..].iter().take_while(move |(r, _)| *r <= d + self.error).map(|&(_, i)| i)
     }
 }
 

@@ -3,7 +3,7 @@
 use super::bvh::Bvh;
 use super::conic::bezier;
 use super::frame::Frame;
-use super::graph::Graph;
+use super::graph::{DISK_ROUNDINGS, Graph};
 use super::kinds::Kinds;
 use super::lamination::{Lamination, UnitDisk};
 use super::radii::Radii;
@@ -130,7 +130,7 @@ fn laminate(pocket: &Pocket, frame: &Frame, direction: Vector) -> Result<Laminat
 
 impl Mat {
     fn build(frame: Frame, all: Sites, bvh: Bvh, map: Lamination, islands: usize) -> Mat {
-        let mut graph = Graph::of(&all.sites, map);
+        let mut graph = Graph::of(&all.sites, map, DISK_ROUNDINGS * frame.noise);
         graph.contract();
         graph.split_at_extrema(&all.sites);
         let kinds = Kinds::of(&graph);

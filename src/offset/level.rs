@@ -2,7 +2,7 @@
 
 use super::trace::{Stretch, Tracer};
 use crate::geom::{ArcSpline, Vertex};
-use crate::mat::{DISK_ERROR, Mat};
+use crate::mat::Mat;
 use serde::{Deserialize, Serialize};
 
 /// The level set at a distance: the boundary of everything farther away, and what is left of the
@@ -51,7 +51,7 @@ impl Tracer<'_> {
         for (i, stretch) in walk.iter().enumerate() {
             let end = walk[(i + 1) % walk.len()].start;
             // An element as short as round-off has no direction; its neighbors meet without it.
-            if stretch.start.distance(end) > DISK_ERROR {
+            if stretch.start.distance(end) > self.mat.graph.error {
                 let bulge = (0.25 * stretch.turn).tan();
                 vertices.push(Vertex { point: self.mat.frame.leave(stretch.start), bulge });
             }

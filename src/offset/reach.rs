@@ -2,7 +2,7 @@
 
 use super::trace::{Stretch, Tracer};
 use crate::geom::{ArcSpline, Element, Point, Vertex};
-use crate::mat::Mat;
+use crate::mat::{Mat, Sets};
 use std::f64::consts::{PI, TAU};
 
 impl Mat {
@@ -96,22 +96,14 @@ impl Tracer<'_> {
     /// Component of the axis with radius up to `d` that each vertex lies in.
     fn outside_components(&self) -> Vec<u32> {
         let graph = &self.mat.graph;
-        let mut root: Vec<u32> = (0..graph.disks.len() as u32).collect();
-        fn find(root: &mut [u32], mut i: u32) -> u32 {
-            while root[i as usize] != i {
-                root[i as usize] = root[root[i as usize] as usize];
-                i = root[i as usize];
-            }
-            i
-        }
+        let mut outside = Sets::singles(graph.disks.len());
         for edge in &graph.edges {
             let [a, b] = edge.disks;
             if !self.is_inside(a) && !self.is_inside(b) {
-                let (a, b) = (find(&mut root, a), find(&mut root, b));
-                root[a.max(b) as usize] = a.min(b);
+                outside.unite(a, b);
             }
         }
-        (0..root.len() as u32).map(|i| find(&mut root, i)).collect()
+        (0..graph.disks.len() as u32).map(|i| outside.find(i)).collect()
     }
 }
 

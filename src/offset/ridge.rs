@@ -2,7 +2,6 @@
 
 use super::trace::Tracer;
 use crate::geom::{ArcSpline, Vertex};
-use crate::mat::DISK_ERROR;
 use std::collections::BTreeMap;
 
 /// A way along a ridge: an edge of the axis, and whether it is run from its end to its start.
@@ -15,7 +14,7 @@ struct Way {
 
 impl Tracer<'_> {
     fn is_at(&self, vertex: u32) -> bool {
-        (self.mat.graph.disks[vertex as usize].radius - self.d).abs() <= DISK_ERROR
+        (self.mat.graph.disks[vertex as usize].radius - self.d).abs() <= self.mat.graph.error
     }
 
     /// The ridges, in job units: paths between their branchings and ends, rings, single places.

@@ -1,7 +1,7 @@
 //! Walking around what lies farther from the boundary than a distance.
 
 use crate::geom::Point;
-use crate::mat::{BoundaryPiece, DISK_ERROR, Foot, GraphEdge, Mat, NONE, Piece, Site, Track, falling_root};
+use crate::mat::{BoundaryPiece, Foot, GraphEdge, Mat, NONE, Piece, Site, Track, falling_root};
 
 /// A stretch of the boundary whose offset is part of the level set, within one site.
 #[derive(Clone, Copy, Debug)]
@@ -32,7 +32,7 @@ impl<'a> Tracer<'a> {
 
     /// Whether more than round-off of the pocket is farther away than `d` at a vertex.
     pub fn is_inside(&self, vertex: u32) -> bool {
-        self.mat.graph.disks[vertex as usize].radius > self.d + DISK_ERROR
+        self.mat.graph.disks[vertex as usize].radius > self.d + self.mat.graph.error
     }
 
     fn edge(&self, id: u32) -> &GraphEdge {
@@ -57,7 +57,7 @@ impl<'a> Tracer<'a> {
     pub fn walks(&self) -> Vec<Vec<Stretch>> {
         let mut walks = Vec::new();
         for &(first, least) in &self.mat.radii().rings {
-            if least > self.d + DISK_ERROR {
+            if least > self.d + self.mat.graph.error {
                 walks.push(self.whole_ring(first));
             }
         }
