@@ -1,3 +1,5 @@
+//! Level sets of many shapes at many distances, held against the exact judge.
+
 #[path = "support/shapes.rs"]
 mod shapes;
 use medial::*;
