@@ -103,13 +103,15 @@ fn roots(k: f64, n: Vector, q: Vector, d: Vector, touch: f64) -> [Option<f64>; 2
     [(k != 0.0).then(|| z / k), (z != 0.0).then(|| -value / z)]
 }
 
-/// Whether the elements cannot be told apart between two of their common places.
+/// Whether the elements cannot be told apart between two of their common places, the first of them
+/// found from the full curves. The measure is that by which it was found to be on both: a stricter
+/// one would leave an element of round-off length between the two.
 fn is_joined(a: &Element, b: &Element, p: Point, q: Point, same: f64) -> bool {
-    if p.distance(q) <= 2.0 * same {
+    if p.distance(q) <= SLACK * same {
         return true;
     }
     let halfway = a.point_at(0.5 * (a.parameter(p).clamp(0.0, 1.0) + a.parameter(q).clamp(0.0, 1.0)));
-    b.distance(halfway) <= 2.0 * same
+    b.distance(halfway) <= SLACK * same
 }
 
 /// Where a curve of curvature `k` with normal `n` at its start `at` meets the horizontal line at
@@ -184,6 +186,19 @@ mod tests {
         let line = Element::segment(point(5.0, 0.0) + turn * -7.0, point(5.0, 0.0));
         let end = point(5.0, 0.0) + turn + turn.left();
         meets(line, Element::arc(point(5.0, 0.0), end, quarter), &[(5.0, 0.0)]);
+    }
+
+    #[test]
+    fn flat_arcs_that_meet_at_a_small_angle_have_one_common_place() {
+        // Found from the full curves, the joint is farther off than the round-off of places.
+        let joint = (26.842_002_312_049_328, -34.011_001_582_397_924);
+        let a = arc((30.918_139_195_155_106, -36.818_550_187_84), joint, -0.000_993_878_069_796_762_9);
+        let b = arc(joint, (25.702_687_769_722_46, -33.230_187_640_786_48), 0.002_215_891_098_417_007_4);
+        for (a, b) in [(a, b), (b, a), (a.reversed(), b.reversed())] {
+            let mut found = Vec::new();
+            meet(&a, &b, 150.0 * SAME, &mut found);
+            assert_eq!(found, [point(joint.0, joint.1)]);
+        }
     }
 
     #[test]
