@@ -28,3 +28,32 @@ fn every_random_axis_passes_its_check() {
         .collect();
     assert!(faults.is_empty(), "{} failures:\n{}", faults.len(), faults.join("\n"));
 }
+
+/// A vertex drawn twice, not quite at one place: the element between has no direction of its own.
+#[test]
+fn elements_as_short_as_round_off_do_no_harm() {
+    let lengths = [1e-15, 1e-14, 1e-13, 1e-12, 1e-10, 1e-8];
+    let mut faults = Vec::new();
+    for kind in ["smooth", "fingers", "isles", "spiral", "coast"] {
+        for seed in 1..=10u64 {
+            for length in lengths {
+                let mut loops = shapes::make(kind, 300, seed);
+                insert_short_element(&mut loops[0], 17, length);
+                let mat = Pocket::from_loops(loops, Tolerance::MM).and_then(|p| p.medial_axis());
+                let fault = mat.map_err(|e| e.to_string()).and_then(|m| m.check().map_err(|e| e.to_string()));
+                faults.extend(fault.err().map(|e| format!("{kind}, seed {seed}, {length:e}: {e}")));
+            }
+        }
+    }
+    assert!(faults.is_empty(), "{} failures:\n{}", faults.len(), faults.join("\n"));
+}
+
+/// Splits element `i` in its middle, and again a given length further on.
+fn insert_short_element(spline: &mut medial::ArcSpline, i: usize, length: f64) {
+    let (before, rest) = spline.element(i).split(0.5);
+    let (short, after) = rest.split((length / rest.length()).min(0.9));
+    spline.vertices[i].bulge = before.bulge;
+    let vertex = |e: medial::Element| medial::Vertex { point: e.start, bulge: e.bulge };
+    spline.vertices.insert(i + 1, vertex(short));
+    spline.vertices.insert(i + 2, vertex(after));
+}

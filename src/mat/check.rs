@@ -67,9 +67,10 @@ impl Mat {
         }
     }
 
-    /// Largest residual that is round-off, in the unit frame.
+    /// Largest residual that is round-off, in the unit frame: that of the numbers, and what a disk of
+    /// the size of the pocket is tilted by at a joint between elements as short as round-off.
     pub(super) fn residual_error(&self) -> f64 {
-        RESIDUAL_ROUNDINGS * self.frame.noise
+        RESIDUAL_ROUNDINGS * self.frame.noise + self.blur
     }
 
     /// How far the boundary reaches into a disk.

@@ -37,6 +37,8 @@ pub(crate) struct Site {
     pub end: Foot,
     /// Signed curvature: positive when the center lies on the side of the interior.
     pub curvature: f64,
+    /// Round-off of its places across the boundary.
+    pub error: f64,
     /// Whether it is a reflex vertex.
     pub is_vertex: bool,
     /// How the boundary goes on at its end.

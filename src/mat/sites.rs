@@ -30,34 +30,48 @@ pub(crate) struct Sites {
     pub rings: Vec<Ring>,
     /// For every convex joint at a place where loops touch: the first such joint there.
     pub touching: HashMap<u32, u32>,
+    /// Round-off of a drawn coordinate.
+    noise: f64,
+    /// Largest angle at a joint that round-off may have made of a smooth one.
+    pub blur: f64,
 }
 
 /// Sweeps up to a quarter turn and this fraction of one more stay whole: a drawn quarter may be
 /// longer by round-off, and all that is needed is a sweep below a half turn.
 const QUARTER_SLACK: f64 = 0.01;
 
+/// Roundings in a place of the boundary: two coordinates of either end, and of the place between.
+const PLACE_ROUNDINGS: f64 = 8.0;
+
 impl Sites {
     /// The sites in the unit frame, holes with a joint at their extreme place in `direction`.
     pub fn of(pocket: &Pocket, frame: &Frame, direction: Vector) -> Sites {
-        let mut all = Sites { sites: Vec::new(), rings: Vec::new(), touching: HashMap::new() };
+        let mut all = Sites {
+            sites: Vec::new(),
+            rings: Vec::new(),
+            touching: HashMap::new(),
+            noise: frame.noise,
+            blur: 0.0,
+        };
         for row in splice(pocket.loops(), frame) {
             let area: f64 = row.iter().map(|d| d.element.area(row[0].element.start)).sum();
             let mut parts: Vec<Part> = row.iter().flat_map(quarter_parts).collect();
+            all.blur = all.blur.max(share_normals(&mut parts, frame.noise));
             let hole = area < 0.0;
             if hole {
                 split_at_extreme(&mut parts, direction);
             }
-            all.add_ring(&parts, frame.noise, hole.then_some(direction));
+            all.add_ring(&parts, hole.then_some(direction));
         }
         all.find_touching();
         all
     }
 
-    fn add_ring(&mut self, parts: &[Part], noise: f64, direction: Option<Vector>) {
+    fn add_ring(&mut self, parts: &[Part], direction: Option<Vector>) {
         let first = self.sites.len() as u32;
         for (i, part) in parts.iter().enumerate() {
             let after = &parts[(i + 1) % parts.len()];
-            let joint = joint_between(part, after, noise);
+            let joint = joint_between(part, after, self.noise);
             self.push(part.start, part.end, part.curvature, false, joint, part.source);
             if joint == Joint::Cone {
                 self.add_cone(part.end, after, direction);
@@ -106,9 +120,20 @@ impl Sites {
         joint: Joint,
         source: SiteRef,
     ) {
-        let (prev, next) = (NONE, NONE);
-        let vertices = [NONE; 2];
-        self.sites.push(Site { start, end, curvature, is_vertex, joint, prev, next, vertices, source });
+        let (prev, next, vertices) = (NONE, NONE, [NONE; 2]);
+        let error = PLACE_ROUNDINGS * self.noise;
+        self.sites.push(Site {
+            start,
+            end,
+            curvature,
+            error,
+            is_vertex,
+            joint,
+            prev,
+            next,
+            vertices,
+            source,
+        });
     }
 
     /// Neighbors and vertex ids of the ring that begins at `first` and ends with the last site.
@@ -218,6 +243,24 @@ fn split_at_extreme(parts: &mut Vec<Part>, direction: Vector) {
         parts[i] = Part { end: foot, last: false, ..whole };
         parts.insert(i + 1, Part { start: foot, ..whole });
     }
+}
+
+/// Gives both parts at every smooth joint one normal: that of the longer element, whose direction
+/// round-off of its ends disturbs less. Elements near the round-off have no direction of their own.
+/// Answers the largest angle that was taken for round-off.
+fn share_normals(parts: &mut [Part], noise: f64) -> f64 {
+    let mut blur = 0.0f64;
+    for i in 0..parts.len() {
+        let j = (i + 1) % parts.len();
+        if joint_between(&parts[i], &parts[j], noise) == (Joint::Smooth { same_circle: false }) {
+            let normal =
+                if parts[i].chord >= parts[j].chord { parts[i].end.normal } else { parts[j].start.normal };
+            blur = blur.max(parts[i].end.normal.cross(parts[j].start.normal).abs());
+            parts[i].end.normal = normal;
+            parts[j].start.normal = normal;
+        }
+    }
+    blur
 }
 
 /// How the boundary goes on from one part to the next.

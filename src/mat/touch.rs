@@ -79,7 +79,11 @@ pub(crate) fn touch(span: Span<'_>, probe: &Probe) -> (f64, Contact) {
     let meets = |v: u32| v != super::site::NONE && (v == probe.vertices[0] || v == probe.vertices[1]);
     let (at_start, at_end) = (meets(v0), meets(v1));
     if span.site.is_vertex {
-        return if at_start { NEVER } else { (to_point(span.site.start.point, probe), Contact::Inside) };
+        return if at_start {
+            NEVER
+        } else {
+            (to_point(span.site.start.point, probe, span.site.error), Contact::Inside)
+        };
     }
     if !at_start
         && !at_end
@@ -87,17 +91,18 @@ pub(crate) fn touch(span: Span<'_>, probe: &Probe) -> (f64, Contact) {
     {
         return (radius, Contact::Inside);
     }
-    let start = if at_start { f64::INFINITY } else { to_point(span.from.point, probe) };
-    let end = if at_end { f64::INFINITY } else { to_point(span.to.point, probe) };
+    let start = if at_start { f64::INFINITY } else { to_point(span.from.point, probe, span.site.error) };
+    let end = if at_end { f64::INFINITY } else { to_point(span.to.point, probe, span.site.error) };
     if start <= end { (start, Contact::Start) } else { (end, Contact::End) }
 }
 
-/// Radius of the disk through a point: `|w|^2 / (-2 N.w)`.
+/// Radius of the disk through a point: `|w|^2 / (-2 N.w)`. A point that lies beyond the tangent of the
+/// disk by round-off holds back none: no disk there can reach over it by more than that.
 #[inline]
-fn to_point(q: Point, probe: &Probe) -> f64 {
+fn to_point(q: Point, probe: &Probe, error: f64) -> f64 {
     let w = (probe.base - q) + probe.offset;
-    let d = -2.0 * probe.normal.dot(w);
-    if d > 0.0 { w.length_squared() / d } else { f64::INFINITY }
+    let depth = -probe.normal.dot(w);
+    if depth > error { 0.5 * w.length_squared() / depth } else { f64::INFINITY }
 }
 
 /// Radius of the disk tangent to the span between its ends.

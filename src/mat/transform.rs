@@ -26,6 +26,8 @@ pub struct Mat {
     pub(crate) graph: Graph,
     pub(super) kinds: Kinds,
     pub(super) islands: usize,
+    /// Largest angle at a joint that was taken for round-off.
+    pub(super) blur: f64,
     radii: OnceLock<Radii>,
 }
 
@@ -134,7 +136,7 @@ impl Mat {
         graph.contract();
         graph.split_at_extrema(&all.sites);
         let kinds = Kinds::of(&graph);
-        Mat { frame, sites: all.sites, bvh, graph, kinds, islands, radii: OnceLock::new() }
+        Mat { frame, sites: all.sites, bvh, graph, kinds, islands, blur: all.blur, radii: OnceLock::new() }
     }
 
     /// The index by radius, made when the first level asks for it.
