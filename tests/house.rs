@@ -20,16 +20,40 @@ fn text(name: &str) -> String {
 #[cfg(feature = "cli")]
 fn printed(arguments: &[&str]) -> String {
     let mut command = assert_cmd::Command::cargo_bin("pocket").unwrap();
-    let output = command.current_dir(root()).args(arguments).assert().success().get_output().clone();
+    let output = command
+        .current_dir(root())
+        .env("COLUMNS", "100")
+        .args(arguments)
+        .assert()
+        .success()
+        .get_output()
+        .clone();
     String::from_utf8(output.stdout).unwrap()
 }
 
-/// A block of the README between a line that begins so and the end of the fence that follows.
+/// The first fenced block of the README after a heading.
 #[cfg(feature = "cli")]
 fn fenced_after(heading: &str) -> String {
     let readme = text("README.md");
     let after = readme.split_once(heading).unwrap_or_else(|| panic!("README.md has no {heading}")).1;
     after.split("```").nth(1).unwrap().split_once('\n').unwrap().1.to_owned()
+}
+
+/// What the crate documentation shows of its examples, without the lines that it hides.
+fn shown_code() -> String {
+    let lib = text("src/lib.rs");
+    let doc = lib.lines().filter_map(|l| l.strip_prefix("//!")).map(|l| l.strip_prefix(' ').unwrap_or(l));
+    doc.filter(|l| !l.starts_with("# ")).map(|l| format!("{l}\n")).collect()
+}
+
+#[test]
+fn the_code_of_the_readme_is_that_of_the_crate_documentation() {
+    let (readme, compiled) = (text("README.md"), shown_code());
+    let blocks: Vec<&str> = readme.split("```rust\n").skip(1).filter_map(|b| b.split("```").next()).collect();
+    assert!(!blocks.is_empty());
+    for block in blocks {
+        assert!(compiled.contains(block), "not in src/lib.rs, where it would be compiled:\n{block}");
+    }
 }
 
 #[cfg(feature = "dxf")]
