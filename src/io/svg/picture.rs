@@ -181,7 +181,7 @@ impl<'a> Picture<'a> {
             "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"{}\" viewBox=\"0 {:.0} {width:.0} {total:.0}\" \
              font-size=\"{}\">\n",
             style::PICTURE,
-            -head,
+            0.0 - head,
             frame.letter()
         );
         if !self.title.is_empty() {

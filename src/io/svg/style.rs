@@ -52,7 +52,7 @@ const ALL: [Look; 8] = [WALL, AXIS, LEVEL, CUT, ENTRY, RAPID, CURVE, MARK];
 /// reads on light and dark ground.
 pub(super) fn level_color(i: usize, n: usize) -> String {
     const STOPS: [[f64; 3]; 5] = [
-        [52.0, 98.0, 196.0],
+        [70.0, 116.0, 216.0],
         [12.0, 130.0, 178.0],
         [0.0, 146.0, 132.0],
         [72.0, 152.0, 68.0],
@@ -120,10 +120,10 @@ mod tests {
 
     #[test]
     fn levels_go_from_blue_to_gold() {
-        assert_eq!(level_color(0, 3), "#3462c4");
+        assert_eq!(level_color(0, 3), "#4674d8");
         assert_eq!(level_color(1, 3), "#009284");
         assert_eq!(level_color(2, 3), "#9e8e18");
-        assert_eq!(level_color(0, 1), "#3462c4");
+        assert_eq!(level_color(0, 1), "#4674d8");
     }
 
     #[test]
