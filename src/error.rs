@@ -59,7 +59,7 @@ pub enum Error {
     #[error("cancelled")]
     Cancelled,
     /// A fault of this library. The drawing that shows it is worth a report.
-    #[error("internal fault near ({}, {}): {what}; please report it with the drawing", .at.x, .at.y)]
+    #[error("internal fault near {at}: {what}; please report it with the drawing")]
     Internal {
         /// What was found inconsistent.
         what: String,
@@ -74,7 +74,7 @@ pub enum Error {
 #[non_exhaustive]
 pub enum Defect {
     /// A chain of curves that does not close.
-    #[error("open contour from ({}, {}) to ({}, {}), a gap of {gap:.4}", .start.x, .start.y, .end.x, .end.y)]
+    #[error("open contour from {start} to {end}, a gap of {gap:.4}")]
     OpenContour {
         /// One end.
         start: Point,
@@ -86,7 +86,7 @@ pub enum Defect {
         inside: bool,
     },
     /// Curves that are drawn more than once; the copies were dropped.
-    #[error("{count} duplicates dropped, one at ({}, {})", .at.x, .at.y)]
+    #[error("{count} duplicates dropped, one at {at}")]
     Duplicates {
         /// How many were dropped.
         count: usize,
@@ -94,19 +94,19 @@ pub enum Defect {
         at: Point,
     },
     /// Contours that cross; the whole nest around them was left out.
-    #[error("contours cross at ({}, {})", .at.x, .at.y)]
+    #[error("contours cross at {at}")]
     Crossing {
         /// A common point.
         at: Point,
     },
     /// A contour that crosses itself; the whole nest around it was left out.
-    #[error("a contour crosses itself at ({}, {})", .at.x, .at.y)]
+    #[error("a contour crosses itself at {at}")]
     SelfCrossing {
         /// The double point.
         at: Point,
     },
     /// More crossings than are listed one by one.
-    #[error("contours cross at {count} more places, one of them ({}, {})", .at.x, .at.y)]
+    #[error("contours cross at {count} more places, one of them {at}")]
     MoreCrossings {
         /// How many are not listed.
         count: usize,
@@ -114,7 +114,7 @@ pub enum Defect {
         at: Point,
     },
     /// Loops that should bound one pocket bound another number of them.
-    #[error("the loops bound {count} pockets, the last one at ({}, {})", .at.x, .at.y)]
+    #[error("the loops bound {count} pockets, the last one at {at}")]
     NotOnePocket {
         /// How many they bound.
         count: usize,
@@ -122,13 +122,13 @@ pub enum Defect {
         at: Point,
     },
     /// A curve with a coordinate that is not finite or too large to calculate with.
-    #[error("a curve near ({}, {}) has a coordinate that is not a usable number", .at.x, .at.y)]
+    #[error("a curve near {at} has a coordinate that is not a usable number")]
     Coordinate {
         /// Where it begins, as far as that is known.
         at: Point,
     },
     /// A loop that encloses nothing.
-    #[error("the loop at ({}, {}) encloses no area", .at.x, .at.y)]
+    #[error("the loop at {at} encloses no area")]
     NoArea {
         /// Its first vertex.
         at: Point,

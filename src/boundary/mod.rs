@@ -1,4 +1,9 @@
 //! From drawn curves to pockets.
+#![doc = ""]
+#![doc = include_str!("../../docs/nested.svg")]
+#![doc = ""]
+//! *Outermost contours are pockets, contours in them islands, contours in islands pockets again. The
+//! drawing holds seven contours and makes four pockets of them.*
 
 mod arrange;
 mod assemble;

@@ -1,6 +1,7 @@
 //! Places and directions in the plane.
 
 use serde::{Deserialize, Serialize};
+use std::fmt;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
 /// A place in the plane, in job units. Written as `[x, y]`.
@@ -129,6 +130,21 @@ impl Vector {
     }
 }
 
+/// As a reader wants it: `(x, y)` with six decimals, or more where both coordinates are that small,
+/// and without trailing zeros.
+impl fmt::Display for Point {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let magnitude = self.x.abs().max(self.y.abs());
+        let decimals = (6.0 - magnitude.log10().floor()).clamp(6.0, 15.0) as usize;
+        let short = |value: f64| {
+            let text = format!("{value:.decimals$}");
+            let text = text.trim_end_matches('0').trim_end_matches('.');
+            if text == "-0" { "0".to_owned() } else { text.to_owned() }
+        };
+        write!(f, "({}, {})", short(self.x), short(self.y))
+    }
+}
+
 impl Sub for Point {
     type Output = Vector;
     #[inline]
@@ -228,5 +244,19 @@ impl From<[f64; 2]> for Vector {
 impl From<Vector> for [f64; 2] {
     fn from(v: Vector) -> [f64; 2] {
         [v.x, v.y]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_are_short_and_never_lost() {
+        let told = |x, y| point(x, y).to_string();
+        assert_eq!(told(66.0, 7.999_999_999_999_998), "(66, 8)");
+        assert_eq!(told(-0.0, -1e-9), "(0, -0.000000001)");
+        assert_eq!(told(1e6 + 0.25, 1e-9), "(1000000.25, 0)");
+        assert_eq!(told(f64::NAN, f64::INFINITY), "(NaN, inf)");
     }
 }

@@ -60,7 +60,9 @@ fn stage(path: &Path, bytes: &[u8]) -> io::Result<(NamedTempFile, PathBuf)> {
     if let Some(permissions) = old.map(|m| m.permissions()).or_else(usual_permissions) {
         builder.permissions(permissions);
     }
-    let mut temporary = builder.tempfile_in(folder)?;
+    fs::metadata(folder)?;
+    // The kind alone: the name of the temporary file means nothing to a reader.
+    let mut temporary = builder.tempfile_in(folder).map_err(|e| io::Error::from(e.kind()))?;
     temporary.write_all(bytes)?;
     temporary.as_file().sync_all()?;
     Ok((temporary, target))

@@ -1,4 +1,8 @@
 //! From level sets to the moves of a tool.
+#![doc = ""]
+#![doc = include_str!("../../docs/path.svg")]
+#![doc = ""]
+//! *The path of a tool of 5 mm from the inside out, round an island.*
 //!
 //! **Needs** the medial axes of the pockets and a [`Job`]: a tool and what it shall do.
 //! **Guarantees** that the tool stays in the pocket, that all it can reach is cut at every height,

@@ -95,7 +95,7 @@ fn print(label: &str, color: &str, message: &str, at: Option<Point>, help: Optio
     };
     let mut text = format!("{} {message}\n", paint(label, color));
     if let Some(at) = at {
-        let _ = writeln!(text, "   {} ({}, {})", paint("at", "36"), short(at.x), short(at.y));
+        let _ = writeln!(text, "   {} {at}", paint("at", "36"));
     }
     if let Some(help) = help {
         let _ = writeln!(text, " {} {help}", paint("help", "36"));

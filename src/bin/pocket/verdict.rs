@@ -56,9 +56,8 @@ impl Verdict {
         );
         for report in &self.wrong {
             let first = report.faults.first();
-            let first = first.map_or(String::new(), |f| {
-                format!(", the first ({:?}, by {:.3e}) at ({}, {})", f.kind, f.by, f.at.x, f.at.y)
-            });
+            let first = first
+                .map_or(String::new(), |f| format!(", the first at {}: {}, by {:.3e}", f.at, f.kind, f.by));
             text += &format!("  level {}: {} faults{first}\n", report.distance, report.fault_count);
         }
         text

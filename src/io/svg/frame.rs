@@ -99,7 +99,7 @@ impl Frame {
         let unit = if units == Units::Mm { "mm" } else { "in" };
         let (x0, x1) = (MARGIN, MARGIN + length * self.scale);
         format!(
-            "<path class=\"scale\" d=\"M{x0} {}V{}H{x1:.2}V{}\"/><text x=\"{:.2}\" y=\"{:.1}\">{length} {unit}</text>\n",
+            "<path class=\"scale\" d=\"M{x0} {:.1}V{:.1}H{x1:.2}V{:.1}\"/><text x=\"{:.2}\" y=\"{:.1}\">{length} {unit}</text>\n",
             y - 6.0,
             y,
             y - 6.0,

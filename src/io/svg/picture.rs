@@ -118,7 +118,7 @@ impl<'a> Picture<'a> {
         let data = |l: &Level| -> String {
             l.loops.iter().chain(&l.ridges).map(|s| shape::spline(frame, s)).collect()
         };
-        if !self.moves.is_empty() {
+        if self.moves.iter().any(|m| !m.is_empty()) {
             let all: String = self.levels.iter().map(|l| data(l)).collect();
             return layer(body, legend, style::LEVEL, &all);
         }
@@ -178,9 +178,10 @@ impl<'a> Picture<'a> {
         let foot = frame.height() + height + 1.2 * frame.letter();
         let (width, total) = (frame.width(), head + foot + frame.letter());
         let mut svg = format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 {:.0} {width:.0} {total:.0}\" \
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"{}\" viewBox=\"0 {:.0} {width:.0} {total:.0}\" \
              font-size=\"{}\">\n",
-            -head,
+            style::PICTURE,
+            0.0 - head,
             frame.letter()
         );
         if !self.title.is_empty() {

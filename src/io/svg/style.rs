@@ -52,7 +52,7 @@ const ALL: [Look; 8] = [WALL, AXIS, LEVEL, CUT, ENTRY, RAPID, CURVE, MARK];
 /// reads on light and dark ground.
 pub(super) fn level_color(i: usize, n: usize) -> String {
     const STOPS: [[f64; 3]; 5] = [
-        [52.0, 98.0, 196.0],
+        [70.0, 116.0, 216.0],
         [12.0, 130.0, 178.0],
         [0.0, 146.0, 132.0],
         [72.0, 152.0, 68.0],
@@ -64,30 +64,37 @@ pub(super) fn level_color(i: usize, n: usize) -> String {
     format!("#{:02x}{:02x}{:02x}", mix(0).round() as u8, mix(1).round() as u8, mix(2).round() as u8)
 }
 
+/// Class of the whole picture. Every rule of the style sheet asks for it, so that a picture can stand
+/// in a page and leave the rest of the page alone.
+pub(super) const PICTURE: &str = "pocket-picture";
+
 /// The style sheet. `pixel` is the size of a pixel in job units: programs that do not know widths
 /// that stay when the picture is enlarged draw with that.
 pub(super) fn sheet(pixel: f64) -> String {
-    let mut css = String::from(
-        "text{font-family:system-ui,-apple-system,'Segoe UI',Roboto,'Helvetica Neue',Arial,sans-serif;\
+    let within = format!(".{PICTURE} ");
+    let scoped = |css: &str| css.replace('@', &within);
+    let mut css = scoped(
+        "@text{font-family:system-ui,-apple-system,'Segoe UI',Roboto,'Helvetica Neue',Arial,sans-serif;\
          fill:#3a4554}\n\
-         path,circle,line{fill:none;stroke-linejoin:round;stroke-linecap:round}\n\
-         .stock{fill:#e9e4da}.floor{fill:#fdfdfb;stroke:none;fill-rule:evenodd}\n\
-         .scale{stroke:#3a4554;stroke-width:1.6}\n",
+         @path,@circle{fill:none;stroke-linejoin:round;stroke-linecap:round}\n\
+         @.stock{fill:#e9e4da}@.floor{fill:#fdfdfb;stroke:none;fill-rule:evenodd}\n\
+         @.scale{stroke:#3a4554;stroke-width:1.6}\n",
     );
     for l in ALL {
-        let _ = writeln!(css, ".{}{{stroke:{};{}}}", l.class, l.light, pen(&l, pixel, ""));
-        let _ = writeln!(css, ".key .{}{{{}}}", l.class, pen(&l, 1.0, ""));
+        let _ = writeln!(css, "{within}.{}{{stroke:{};{}}}", l.class, l.light, pen(&l, pixel, ""));
+        let _ = writeln!(css, "{within}.key .{}{{{}}}", l.class, pen(&l, 1.0, ""));
     }
-    css += "@supports (vector-effect:non-scaling-stroke){path,circle{vector-effect:non-scaling-stroke}\n";
+    css += "@supports (vector-effect:non-scaling-stroke){\n";
+    css += &scoped("@path,@circle{vector-effect:non-scaling-stroke}\n");
     for l in ALL {
-        let _ = writeln!(css, ".{}{{{}}}", l.class, pen(&l, 1.0, "px"));
+        let _ = writeln!(css, "{within}.{}{{{}}}", l.class, pen(&l, 1.0, "px"));
     }
-    css += "}\n@media (prefers-color-scheme:dark){text{fill:#c3ccd8}.scale{stroke:#c3ccd8}\
-            .stock{fill:#15181d}.floor{fill:#252b34}\n";
+    css += "}\n@media (prefers-color-scheme:dark){\n";
+    css += &scoped("@text{fill:#c3ccd8}@.scale{stroke:#c3ccd8}@.stock{fill:#15181d}@.floor{fill:#252b34}\n");
     for l in ALL {
-        let _ = writeln!(css, ".{}{{stroke:{}}}", l.class, l.dark);
+        let _ = writeln!(css, "{within}.{}{{stroke:{}}}", l.class, l.dark);
     }
-    css + "}\n@media print{.stock{fill:#f1eee8}}\n"
+    css + "}\n@media print{" + &scoped("@.stock{fill:#f1eee8}") + "}\n"
 }
 
 /// Width and dashes.
@@ -113,10 +120,10 @@ mod tests {
 
     #[test]
     fn levels_go_from_blue_to_gold() {
-        assert_eq!(level_color(0, 3), "#3462c4");
+        assert_eq!(level_color(0, 3), "#4674d8");
         assert_eq!(level_color(1, 3), "#009284");
         assert_eq!(level_color(2, 3), "#9e8e18");
-        assert_eq!(level_color(0, 1), "#3462c4");
+        assert_eq!(level_color(0, 1), "#4674d8");
     }
 
     #[test]
