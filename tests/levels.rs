@@ -1,34 +1,86 @@
+//! Level sets held against the exact judge, and against each other.
+
 #[path = "support/shapes.rs"]
 mod shapes;
-use medial::*;
-fn judge(name: &str, loops: Vec<ArcSpline>, ds: &[f64]) {
-    let p = medial::Pocket::from_loops(loops.clone(), medial::Tolerance::MM).unwrap();
-    let m = p.medial_axis().unwrap();
-    if let Err(e) = m.check() {
-        println!("{name} CHECK {e}");
-    }
-    let big = m.largest_disk().radius;
-    for &f in ds {
-        let d = f * big;
-        let level = m.level(d);
-        let mut offs = level.loops.clone();
-        let rep = medial::verify::level(loops.iter(), d, &offs);
-        let ua = m.unreachable_area(d);
-        if !rep.is_right() {
-            println!("{name} d={d} loops {} ridges {}: {:?}", offs.len(), level.ridges.len(), rep);
+
+use medial::{ArcSpline, Mat, Pocket, Tolerance, verify};
+use rayon::prelude::*;
+
+/// Faults of the levels of one shape at some fractions of its largest radius.
+fn faults(kind: &str, size: usize, seed: u64) -> Vec<String> {
+    let loops = shapes::make(kind, size, seed);
+    let mat = axis(&loops);
+    let largest = mat.largest_disk().radius;
+    let mut faults = Vec::new();
+    for fraction in [0.01, 0.1, 0.3, 0.5, 0.77, 0.95] {
+        let d = fraction * largest;
+        let level = mat.level(d);
+        let all: Vec<ArcSpline> = level.loops.iter().chain(&level.ridges).cloned().collect();
+        let report = verify::level(&loops, d, &all);
+        if !report.is_right() {
+            faults.push(format!("{kind} of {size}, seed {seed}, level {d}: {report:?}"));
         }
-        let _ = (&mut offs, ua);
+    }
+    faults
+}
+
+fn axis(loops: &[ArcSpline]) -> Mat {
+    Pocket::from_loops(loops.to_vec(), Tolerance::MM).expect("a pocket").medial_axis().expect("an axis")
+}
+
+#[test]
+fn every_level_of_random_shapes_is_judged_right() {
+    let faults: Vec<String> = shapes::KINDS
+        .par_iter()
+        .flat_map(|kind| (1..=6u64).into_par_iter().map(move |seed| (*kind, seed)))
+        .flat_map_iter(|(kind, seed)| faults(kind, 150 + 40 * seed as usize, seed))
+        .collect();
+    assert!(faults.is_empty(), "{} failures:\n{}", faults.len(), faults.join("\n"));
+}
+
+/// Area beyond a distance falls at the rate of the length of the level there: dA/dd = -L.
+#[test]
+fn area_falls_with_the_distance_by_the_length_of_the_level() {
+    for kind in shapes::KINDS {
+        let mat = axis(&shapes::make(kind, 200, 3));
+        let d = 0.37 * mat.largest_disk().radius;
+        let h = 1e-4 * d;
+        let area = |d: f64| mat.level(d).loops.iter().map(ArcSpline::area).sum::<f64>();
+        let length: f64 = mat.level(d).loops.iter().map(ArcSpline::length).sum();
+        let rate = (area(d - h) - area(d + h)) / (2.0 * h);
+        assert!((rate - length).abs() < 1e-3 * length, "{kind}: {rate} against {length}");
     }
 }
+
+/// Offsets can be taken in steps: the level at a + b is the level at b of what the level at a bounds,
+/// wherever the latter is one pocket.
 #[test]
-fn scratch() {
-    let seeds: u64 = std::env::var("SEEDS").map_or(11, |s| s.parse().unwrap());
-    for kind in shapes::KINDS {
-        let t = std::time::Instant::now();
-        for seed in 1..seeds {
-            let l = shapes::make(kind, 300, seed);
-            judge(&format!("{kind} {seed}"), l, &[0.01, 0.1, 0.3, 0.5, 0.77, 0.95]);
-        }
-        println!("{kind} {:?}", t.elapsed());
+fn a_level_of_a_level_is_a_level() {
+    for kind in ["smooth", "coast", "fingers", "spiral"] {
+        let mat = axis(&shapes::make(kind, 300, 5));
+        let largest = mat.largest_disk().radius;
+        let first = mat.level(0.2 * largest);
+        let pieces: Vec<Mat> = first.loops.iter().map(|l| axis(std::slice::from_ref(l))).collect();
+        let area = |loops: &[ArcSpline]| loops.iter().map(ArcSpline::area).sum::<f64>();
+        let stepped: f64 = pieces.iter().map(|p| area(&p.level(0.4 * largest).loops)).sum();
+        let direct = area(&mat.level(0.6 * largest).loops);
+        assert!(
+            (stepped - direct).abs() <= 1e-9 * direct.max(largest * largest),
+            "{kind}: {stepped} {direct}"
+        );
     }
+}
+
+/// The opening by a disk: what it cannot reach shrinks to nothing with the disk, and is the corners of
+/// a square.
+#[test]
+fn a_disk_reaches_all_of_a_square_but_its_corners() {
+    let square =
+        shapes::polygon([(0.0, 0.0), (9.0, 0.0), (9.0, 9.0), (0.0, 9.0)].map(|(x, y)| medial::point(x, y)));
+    let mat = axis(&[square]);
+    for r in [0.5, 2.0, 4.5] {
+        let corners = (4.0 - std::f64::consts::PI) * r * r;
+        assert!((mat.unreachable_area(r) - corners).abs() < 1e-12, "{r}: {}", mat.unreachable_area(r));
+    }
+    assert_eq!(mat.unreachable_area(4.6), 81.0);
 }

@@ -161,12 +161,18 @@ impl Element {
         if self.bulge == 0.0 {
             return (p - self.start).dot(chord) / chord.length_squared();
         }
-        let n0 = self.normals().0;
-        let g = n0 - (p - self.start) * self.curvature();
-        let sweep = self.sweep();
-        let mid = 0.5 * sweep;
-        let (sin, cos) = mid.sin_cos();
-        0.5 + n0.rotated(cos, sin).angle_to(g) / sweep
+        // The turn from the normal at the nearer end, in curvature form: exact also for flat arcs.
+        let (k, sweep) = (self.curvature(), self.sweep());
+        let turn_from = |end: Point, normal: Vector| {
+            let w = p - end;
+            (k * w.cross(normal)).atan2(1.0 - k * w.dot(normal))
+        };
+        let (n0, n1) = self.normals();
+        if (p - self.start).length_squared() <= (p - self.end).length_squared() {
+            turn_from(self.start, n0) / sweep
+        } else {
+            1.0 + turn_from(self.end, n1) / sweep
+        }
     }
 
     /// The place of the element nearest to `p`.

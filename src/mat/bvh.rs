@@ -1,10 +1,13 @@
-//! A hierarchy of boxes over the sites in boundary order.
+//! A hierarchy of boxes over the sites.
 //!
-//! Boundary order is spatial order enough: neighbors on the boundary are neighbors in the plane.
-//! So the tree is implicit, eight children to a node, without sorting or pointers; boxes are `f32`,
-//! rounded outward, eight side by side so that they are tested in one go.
+//! The tree is implicit, eight children to a node, without pointers; boxes are `f32`, rounded outward,
+//! eight side by side so that they are tested in one go. The pieces of a face stand in boundary order,
+//! so that a part of the boundary is a range of leaves. The sites of a pocket stand along a Hilbert
+//! curve: in a spiral of many turns boundary order would put whole turns into boxes that all overlap
+//! (28 microseconds per site at 100,000 sites on 780 turns).
 
 use crate::geom::{Bounds, Point};
+use rayon::prelude::*;
 
 const WIDTH: usize = 8;
 
@@ -24,6 +27,8 @@ pub(crate) struct Bvh {
     /// Lowest level first; each level packs the one below.
     levels: Vec<Vec<Boxes>>,
     count: usize,
+    /// The leaves, where they do not stand in the order of their numbers.
+    order: Vec<u32>,
 }
 
 /// A disk that shrinks while the hierarchy is searched.
@@ -37,7 +42,16 @@ pub(crate) struct SearchDisk {
 const STACK: usize = 80;
 
 impl Bvh {
-    /// The hierarchy over some boxes.
+    /// The hierarchy over some boxes, its leaves along a Hilbert curve.
+    pub fn sorted(boxes: &[Bounds]) -> Bvh {
+        let mut order: Vec<(u32, u32)> = boxes.iter().map(|b| hilbert(b.center())).zip(0..).collect();
+        order.par_sort_unstable();
+        let order: Vec<u32> = order.into_iter().map(|(_, i)| i).collect();
+        let tree = Bvh::build(order.iter().map(|&i| boxes[i as usize]));
+        Bvh { order, ..tree }
+    }
+
+    /// The hierarchy over some boxes in the order given.
     pub fn build(boxes: impl ExactSizeIterator<Item = Bounds>) -> Bvh {
         let count = boxes.len();
         let mut level = vec![Boxes::EMPTY; count.div_ceil(WIDTH).max(1)];
@@ -53,14 +67,19 @@ impl Bvh {
             levels.push(std::mem::replace(&mut level, above));
         }
         levels.push(level);
-        Bvh { levels, count }
+        Bvh { levels, count, order: Vec::new() }
     }
 
     /// Calls `visit` for every leaf whose box meets the disk, near boxes first. Whenever `visit`
     /// answers with a disk, the search goes on with that one, which must lie in the last.
     #[inline]
     pub fn search(&self, disk: SearchDisk, visit: impl FnMut(u32) -> Option<SearchDisk>) {
-        self.search_range(disk, 0..self.count, visit);
+        if self.order.is_empty() {
+            self.search_range(disk, 0..self.count, visit);
+        } else {
+            let mut visit = visit;
+            self.search_range(disk, 0..self.count, |at| visit(self.order[at as usize]));
+        }
     }
 
     /// The same for the leaves of a range.
@@ -83,11 +102,12 @@ impl Bvh {
             if level == 0 {
                 for j in 0..WIDTH {
                     let leaf = index as usize * WIDTH + j;
-                    if distances[j] <= reach.squared && range.contains(&leaf) {
-                        if let Some(smaller) = visit(leaf as u32) {
-                            reach = Reach::of(&smaller);
-                            distances = boxes.squared_distances(&reach);
-                        }
+                    if distances[j] <= reach.squared
+                        && range.contains(&leaf)
+                        && let Some(smaller) = visit(leaf as u32)
+                    {
+                        reach = Reach::of(&smaller);
+                        distances = boxes.squared_distances(&reach);
                     }
                 }
                 continue;
@@ -115,6 +135,26 @@ impl Bvh {
             }
         }
     }
+}
+
+/// Place of a point of the unit frame along a Hilbert curve of 2^16 steps a side.
+fn hilbert(p: Point) -> u32 {
+    const SIDE: u32 = 1 << 16;
+    let cell = |c: f64| (((c + 1.0) * 0.5 * f64::from(SIDE)) as u32).min(SIDE - 1);
+    let (mut x, mut y, mut along) = (cell(p.x), cell(p.y), 0u32);
+    let mut step = SIDE / 2;
+    while step > 0 {
+        let (right, up) = (u32::from(x & step > 0), u32::from(y & step > 0));
+        along = along.wrapping_add(step.wrapping_mul(step).wrapping_mul((3 * right) ^ up));
+        if up == 0 {
+            if right == 1 {
+                (x, y) = (SIDE - 1 - x, SIDE - 1 - y);
+            }
+            (x, y) = (y, x);
+        }
+        step /= 2;
+    }
+    along
 }
 
 /// A search disk in `f32`, its radius rounded up by the round-off of center and boxes.
@@ -164,10 +204,10 @@ impl Boxes {
     #[inline]
     fn squared_distances(&self, reach: &Reach) -> [f32; WIDTH] {
         let mut out = [0f32; WIDTH];
-        for j in 0..WIDTH {
+        for (j, out) in out.iter_mut().enumerate() {
             let dx = (self.min_x[j] - reach.x).max(reach.x - self.max_x[j]).max(0.0);
             let dy = (self.min_y[j] - reach.y).max(reach.y - self.max_y[j]).max(0.0);
-            out[j] = dx * dx + dy * dy;
+            *out = dx * dx + dy * dy;
         }
         out
     }

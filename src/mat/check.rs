@@ -29,7 +29,7 @@ impl Mat {
         let mut note = |value: f64, at: Point, slot: &mut f64| {
             *slot = slot.max(value);
             // NaN is as bad as it gets.
-            if !(value <= worst.0) {
+            if value > worst.0 || value.is_nan() {
                 worst = (value, at);
             }
         };

@@ -346,8 +346,8 @@ impl Lamination {
         let mut number = vec![NONE; joints.len().max(all.sites.len())];
         let mut last = vec![NONE; all.sites.len()];
         let mut first = vec![NONE; all.sites.len()];
-        for i in 0..self.visits.len() {
-            let root = blocks.root(joints[i]);
+        for (i, &joint) in joints.iter().enumerate().take(self.visits.len()) {
+            let root = blocks.root(joint);
             let key = all.touching.get(&root).copied().unwrap_or(root) as usize;
             if number[key] == NONE {
                 number[key] = self.disks.len() as u32;

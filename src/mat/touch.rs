@@ -81,10 +81,11 @@ pub(crate) fn touch(span: Span<'_>, probe: &Probe) -> (f64, Contact) {
     if span.site.is_vertex {
         return if at_start { NEVER } else { (to_point(span.site.start.point, probe), Contact::Inside) };
     }
-    if !at_start && !at_end {
-        if let Some(radius) = tangent(&span, probe) {
-            return (radius, Contact::Inside);
-        }
+    if !at_start
+        && !at_end
+        && let Some(radius) = tangent(&span, probe)
+    {
+        return (radius, Contact::Inside);
     }
     let start = if at_start { f64::INFINITY } else { to_point(span.from.point, probe) };
     let end = if at_end { f64::INFINITY } else { to_point(span.to.point, probe) };

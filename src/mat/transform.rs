@@ -115,7 +115,7 @@ type Laminated = (Sites, Bvh, Lamination, (f64, Point));
 /// Sites, shots and map for one direction of links; the place of a shot into nothing otherwise.
 fn laminate(pocket: &Pocket, frame: &Frame, direction: Vector) -> Result<Laminated, Point> {
     let all = Sites::of(pocket, frame, direction);
-    let bvh = Bvh::build(all.sites.iter().map(Site::bounds));
+    let bvh = Bvh::sorted(&all.sites.iter().map(Site::bounds).collect::<Vec<_>>());
     let shots = shoot_all(&all.sites, &bvh);
     let lost =
         (0..shots.len()).find(|&i| shots[i].site == NONE && all.sites[i].joint != super::site::Joint::Convex);

@@ -13,7 +13,7 @@ impl Mat {
     pub fn unreachable_area(&self, radius: f64) -> f64 {
         let whole = self.area();
         let unit = self.frame.length_in(radius);
-        if !(unit > 0.0) {
+        if unit.is_nan() || unit <= 0.0 {
             return 0.0;
         }
         if unit > 1.0 {

@@ -63,10 +63,10 @@ impl<'a> Tracer<'a> {
         }
         let mut done = std::collections::HashSet::new();
         for &edge in &self.edges {
-            if let Some(entering) = self.entering(edge) {
-                if !done.contains(&edge) {
-                    walks.push(self.walk_from(entering, &mut done));
-                }
+            if let Some(entering) = self.entering(edge)
+                && !done.contains(&edge)
+            {
+                walks.push(self.walk_from(entering, &mut done));
             }
         }
         walks
@@ -189,7 +189,8 @@ impl<'a> Tracer<'a> {
             let step = crate::geom::vector((e0 * n1.y - e1 * n0.y) / det, (e1 * n0.x - e0 * n1.x) / det);
             let next = c + step;
             let after = residuals(next);
-            if !(worst(&after) < 0.5 * worst(&now)) {
+            let converges = worst(&after) < 0.5 * worst(&now);
+            if !converges {
                 break;
             }
             (c, now) = (next, after);

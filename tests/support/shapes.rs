@@ -177,7 +177,7 @@ fn isles(r: &mut Random, count: usize, per: usize, polygons: bool) -> Vec<ArcSpl
     let cell = 0.9 / m as f64;
     let place = |i: usize| -0.45 + cell * (i as f64 + 0.5);
     let centers: Vec<Point> = (0..m * m)
-        .map(|i| point(place(i / m), place(if (i / m) % 2 == 0 { i % m } else { m - 1 - i % m })))
+        .map(|i| point(place(i / m), place(if (i / m).is_multiple_of(2) { i % m } else { m - 1 - i % m })))
         .filter(|p| p.to_vector().length() < 0.45)
         .collect();
     (0..count.min(centers.len()))
