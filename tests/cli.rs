@@ -350,12 +350,43 @@ fn a_step_above_half_the_tool_is_reduced_and_said() {
 }
 
 #[test]
-fn quiet_says_nothing_but_warnings() {
+fn quiet_says_nothing_but_errors() {
     let desk = Desk::new(&plate());
-    desk.pocket(&["part.dxf", "--tool", "6", "--entry", "ramp", "--quiet"])
-        .assert()
-        .success()
-        .stderr(is_empty());
+    desk.pocket(&["part.dxf", "--tool", "6", "--quiet"]).assert().success().stderr(is_empty());
+    let error = desk.pocket(&["part.dxf", "--tool", "60", "--quiet"]).assert().code(1).get_output().clone();
+    let told = String::from_utf8(error.stderr).unwrap();
+    assert!(told.starts_with("error:") && !told.contains("warning:"), "{told}");
+}
+
+#[test]
+fn an_outline_with_everything_in_it_may_be_skipped() {
+    let desk = Desk::new(&drawing(&[
+        rectangle(0.0, 0.0, 60.0, 40.0),
+        circle(15.0, 20.0, 8.0),
+        circle(45.0, 20.0, 10.0),
+        circle(45.0, 20.0, 3.0),
+    ]));
+    let areas = |more: &[&str]| -> (Vec<f64>, bool) {
+        let arguments = ["part.dxf", "--tool", "2", "--report", "json"].iter().chain(more);
+        let run = desk.pocket(&arguments.copied().collect::<Vec<_>>()).assert().success();
+        let report: serde_json::Value = serde_json::from_slice(&run.get_output().stdout).unwrap();
+        let pockets = report["pockets"].as_array().unwrap().iter();
+        let hint = report["warnings"].as_array().unwrap().iter().any(|w| w["kind"] == "outline-of-part");
+        (pockets.map(|p| p["area"].as_f64().unwrap().round()).collect(), hint)
+    };
+    assert_eq!(areas(&[]), (vec![1885.0, 28.0], true));
+    assert_eq!(areas(&["--skip-outer"]), (vec![201.0, 286.0], false));
+    assert_eq!(areas(&["--from-depth", "2"]), (vec![28.0], false));
+    desk.refuses(&["part.dxf", "--tool", "2", "--from-depth", "3"], 1, "inside 3 others");
+    desk.refuses(&["part.dxf", "--tool", "2", "--from-depth", "3", "--skip-outer"], 2, "--skip-outer");
+}
+
+#[test]
+fn all_entries_that_are_not_as_asked_make_one_warning() {
+    let desk = Desk::new(&plate());
+    let run = desk.pocket(&["part.dxf", "--tool", "6", "--step", "40%", "--skip-layer", "none"]).assert();
+    let told = String::from_utf8(run.success().get_output().stderr.clone()).unwrap();
+    assert_eq!(told.matches("instead of entries by helix").count(), 1, "{told}");
 }
 
 #[test]

@@ -40,7 +40,7 @@ pub(super) fn assemble<'a>(
     let loops = drawing.loops(simple.into_iter().map(|(contour, _)| contour));
     let nest = Nest::new(&loops, grain);
     let crossing: Vec<ArcSpline> = crossing.into_iter().map(|(c, _)| c.path).collect();
-    let left_out = left_out(&loops, &nest, &crossing);
+    let left_out = left_out(&loops, &nest, &crossing, from_depth);
     drawing.report_open(&open, &nest, from_depth);
     drawing.defects.extend(drawing.seen.duplicates.take());
     let pockets = pockets(loops, &nest, &left_out, from_depth);
@@ -135,9 +135,10 @@ impl Drawing {
     }
 }
 
-/// For each loop whether it is in a nest with contours that cross.
-fn left_out(loops: &[ArcSpline], nest: &Nest, crossing: &[ArcSpline]) -> Vec<bool> {
-    let outermost = outermost(nest);
+/// For each loop whether it is in a nest with contours that cross. Nests begin where pockets do: a
+/// crossing in the outline of a part does no harm to the pockets in it.
+fn left_out(loops: &[ArcSpline], nest: &Nest, crossing: &[ArcSpline], from_depth: usize) -> Vec<bool> {
+    let outermost = outermost(nest, from_depth);
     let mut out = vec![false; loops.len()];
     if crossing.is_empty() {
         return out;
@@ -160,13 +161,14 @@ fn left_out(loops: &[ArcSpline], nest: &Nest, crossing: &[ArcSpline]) -> Vec<boo
     outermost.into_iter().map(|i| out[i]).collect()
 }
 
-/// For each loop the outermost one around it.
-fn outermost(nest: &Nest) -> Vec<usize> {
+/// For each loop the outermost one around it that may be a pocket.
+fn outermost(nest: &Nest, from_depth: usize) -> Vec<usize> {
     let mut by_depth: Vec<usize> = (0..nest.depth.len()).collect();
     by_depth.sort_by_key(|&i| nest.depth[i]);
     let mut outermost: Vec<usize> = (0..by_depth.len()).collect();
     for i in by_depth {
-        outermost[i] = nest.parent(i).map_or(i, |parent| outermost[parent]);
+        let parent = nest.parent(i).filter(|&p| nest.depth[p] >= from_depth);
+        outermost[i] = parent.map_or(i, |p| outermost[p]);
     }
     outermost
 }

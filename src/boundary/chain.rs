@@ -253,6 +253,18 @@ mod tests {
     }
 
     #[test]
+    fn a_gap_just_as_wide_as_the_reach_is_closed() {
+        let sides = [
+            segment((0.0, 0.0), (100.0, 0.0)),
+            segment((100.0, 0.01), (100.0, 60.0)),
+            segment((99.99, 60.0), (0.0, 60.0)),
+            segment((0.0, 59.99), (0.0, 0.01)),
+        ];
+        let (contours, open) = chained(&sides);
+        assert_eq!((contours.len(), open.len()), (1, 0));
+    }
+
+    #[test]
     fn a_contour_broken_twice_names_the_wider_gap() {
         let paths = [
             ArcSpline::open([(0.0, 0.0, 0.0), (2.0, 0.0, 0.0), (2.0, 1.0, 0.0)]),

@@ -98,7 +98,8 @@ impl<'a> Ends<'a> {
         let mut ends = Ends {
             paths,
             grain,
-            join: join.max(grain.same),
+            // A gap drawn as wide as the reach is not wider for the round-off of its two ends.
+            join: join + grain.same,
             node_of: (0..spots.len() as u32).collect(),
             spot_degree: degree.clone(),
             parts: (0..spots.len() as u32).map(|spot| vec![spot]).collect(),

@@ -336,3 +336,21 @@ proptest! {
         drawn(&paths);
     }
 }
+
+#[test]
+fn a_crossing_spoils_no_pocket_beside_it_in_the_outline_of_a_part() {
+    let square = |x: f64, y: f64, side: f64| {
+        ArcSpline::closed([(x, y, 0.0), (x + side, y, 0.0), (x + side, y + side, 0.0), (x, y + side, 0.0)])
+    };
+    let part = [
+        square(0.0, 0.0, 100.0),
+        square(10.0, 10.0, 20.0),
+        square(20.0, 20.0, 20.0),
+        square(60.0, 60.0, 20.0),
+        square(65.0, 65.0, 5.0),
+    ];
+    assert!(drawn_from(&part, 0).pockets.is_empty());
+    let inside = drawn_from(&part, 1);
+    assert_eq!(inside.pockets.iter().map(Pocket::area).collect::<Vec<_>>(), [375.0]);
+    assert_eq!(inside.defects.len(), 2);
+}

@@ -28,7 +28,8 @@ pub(super) type IsClear<'a> = dyn Fn(&Element, f64) -> bool + 'a;
 pub(super) struct Planner<'a> {
     job: &'a Job,
     pub cutter: Cutter<'a>,
-    fallbacks: Vec<Warning>,
+    /// Ramps and plunges that stand for another kind of entry, and the first of these plunges.
+    fallbacks: Option<(usize, usize, Option<Point>)>,
 }
 
 /// What is known of the pocket at hand.
@@ -53,7 +54,7 @@ struct Height {
 impl<'a> Planner<'a> {
     /// A planner without moves yet.
     pub fn new(job: &'a Job) -> Planner<'a> {
-        Planner { job, cutter: Cutter::new(job), fallbacks: Vec::new() }
+        Planner { job, cutter: Cutter::new(job), fallbacks: None }
     }
 
     /// Cuts a pocket and answers the number of passes.
@@ -83,10 +84,11 @@ impl<'a> Planner<'a> {
         Ok(rough.len() * heights.len() + wall.len())
     }
 
-    /// Ends the path; answers the warnings.
-    pub fn finish(&mut self) -> Vec<Warning> {
+    /// Ends the path; answers what could not be done as asked.
+    pub fn finish(&mut self) -> Option<Warning> {
         self.cutter.leave();
-        std::mem::take(&mut self.fallbacks)
+        let (ramps, plunges, at) = self.fallbacks.take()?;
+        Some(Warning::EntryFallback { asked: self.job.entry, ramps, plunges, at })
     }
 
     /// Which passes wait for roughing to reach the floor and then take the finishing stock off the
@@ -239,16 +241,13 @@ impl<'a> Planner<'a> {
         if to == self.job.entry {
             return;
         }
-        for known in &mut self.fallbacks {
-            if let Warning::EntryFallback { used, count, .. } = known
-                && *used == to
-            {
-                *count += 1;
-                return;
-            }
+        let (ramps, plunges, first) = self.fallbacks.get_or_insert((0, 0, None));
+        if to == Entry::Plunge {
+            *plunges += 1;
+            first.get_or_insert(place);
+        } else {
+            *ramps += 1;
         }
-        let warning = Warning::EntryFallback { asked: self.job.entry, used: to, count: 1, at: place };
-        self.fallbacks.push(warning);
     }
 }
 

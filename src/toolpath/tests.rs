@@ -60,7 +60,7 @@ fn plan(level: fn(f64) -> Level, depth: fn(Point) -> f64, job: &Job) -> Planned 
     Planned {
         moves: std::mem::take(&mut planner.cutter.moves),
         totals: planner.cutter.totals,
-        warnings,
+        warnings: warnings.into_iter().collect(),
         passes,
     }
 }
@@ -250,7 +250,7 @@ fn a_place_where_the_tool_just_fits_is_drilled_and_said() {
     let planned = plan(hole, |_| 2.0, &job());
     assert!(matches!(
         planned.warnings[..],
-        [Warning::EntryFallback { asked: Entry::Ramp, used: Entry::Plunge, count: 2, .. }]
+        [Warning::EntryFallback { asked: Entry::Ramp, ramps: 0, plunges: 2, at: Some(_) }]
     ));
     assert_eq!(planned.moves.iter().filter(|m| m.to().z == -2.0).count(), 1);
 }

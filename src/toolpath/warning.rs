@@ -42,12 +42,12 @@ pub enum Warning {
     EntryFallback {
         /// As asked.
         asked: Entry,
-        /// As used.
-        used: Entry,
-        /// How often.
-        count: usize,
-        /// The first place.
-        at: Point,
+        /// How many entries are ramps instead.
+        ramps: usize,
+        /// How many go straight down instead.
+        plunges: usize,
+        /// The first place where the tool goes straight down.
+        at: Option<Point>,
     },
 }
 
@@ -66,9 +66,8 @@ impl Warning {
     pub fn at(&self) -> Option<Point> {
         match self {
             Warning::StepReduced { .. } => None,
-            Warning::ToolTooLarge { at, .. }
-            | Warning::NarrowNeck { at, .. }
-            | Warning::EntryFallback { at, .. } => Some(*at),
+            Warning::ToolTooLarge { at, .. } | Warning::NarrowNeck { at, .. } => Some(*at),
+            Warning::EntryFallback { at, .. } => *at,
         }
     }
 
@@ -89,7 +88,7 @@ impl Warning {
                 format!("a tool of at most --tool {} passes", round_down(*width))
             }
             Warning::NarrowNeck { .. } => "leave less with --stock".into(),
-            Warning::EntryFallback { used: Entry::Plunge, .. } => {
+            Warning::EntryFallback { plunges: 1.., .. } => {
                 "use a tool that cuts at its center, or drill there first".into()
             }
             Warning::EntryFallback { .. } => "ask for --entry ramp".into(),
@@ -116,8 +115,13 @@ impl fmt::Display for Warning {
                 "a neck of {} is too narrow for the tool; an area of {area:.4} is out of reach in all",
                 round_down(width.max(0.0))
             ),
-            Warning::EntryFallback { asked, used, count, .. } => {
-                write!(f, "{count} entries by {} instead of {}", used.name(), asked.name())
+            Warning::EntryFallback { asked, ramps, plunges, .. } => {
+                write!(f, "instead of entries by {}: ", asked.name())?;
+                match (ramps, plunges) {
+                    (ramps, 0) => write!(f, "{ramps} by ramp"),
+                    (0, plunges) => write!(f, "{plunges} straight down"),
+                    _ => write!(f, "{ramps} by ramp, {plunges} straight down"),
+                }
             }
         }
     }

@@ -148,6 +148,16 @@ pub struct Args {
     #[arg(long, value_name = "LENGTH", value_parser = at_least_0, help_heading = "Drawing")]
     pub join: Option<Length>,
 
+    /// Take the outermost contour for the outline of the part: pockets begin inside it
+    ///
+    /// The same as --from-depth 1.
+    #[arg(long, conflicts_with = "from_depth", help_heading = "Drawing")]
+    pub skip_outer: bool,
+
+    /// Number of contours around a pocket: 0 for the outermost contours, 1 for those in them ...
+    #[arg(long, value_name = "N", default_value_t = 0, help_heading = "Drawing")]
+    pub from_depth: usize,
+
     /// Layer to read, * for anything; repeatable [default: all visible]
     #[arg(long = "layer", value_name = "NAME", help_heading = "Drawing")]
     pub layers: Vec<String>,
@@ -192,7 +202,7 @@ pub struct Args {
     #[arg(long, help_heading = "Report")]
     pub timings: bool,
 
-    /// Nothing on standard error but warnings and errors
+    /// Nothing on standard error but errors
     #[arg(long, short, help_heading = "Report")]
     pub quiet: bool,
 

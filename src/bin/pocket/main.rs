@@ -78,7 +78,9 @@ fn set_threads(args: &Args) -> Result<(), Failure> {
 
 /// Warnings to standard error, the report to where it belongs.
 fn tell(args: &Args, plan: &Plan, report: &Report) -> Result<(), Failure> {
-    Notice::print_all(&plan.notices);
+    if !args.quiet {
+        Notice::print_all(&plan.notices);
+    }
     match args.report {
         ReportArg::Json => print_out(&report.json()),
         ReportArg::Text if args.quiet => Ok(()),

@@ -63,6 +63,11 @@ impl Notice {
         Notice::from(&io::Warning::ArcsDropped { count, at })
     }
 
+    /// A contour that holds nearly everything.
+    pub fn outline_of_part(at: Point) -> Notice {
+        Notice::from(&io::Warning::OutlineOfPart { at })
+    }
+
     /// All to standard error, but of each kind the first few only.
     pub fn print_all(notices: &[Notice]) {
         let mut counts: BTreeMap<&str, usize> = BTreeMap::new();

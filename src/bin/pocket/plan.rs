@@ -28,7 +28,9 @@ impl Plan {
         let mut notices = Vec::new();
         Plan::with_notices(args, progress, timings, &mut notices).inspect_err(|_| {
             progress.clear();
-            Notice::print_all(&notices);
+            if !args.quiet {
+                Notice::print_all(&notices);
+            }
         })
     }
 
@@ -45,7 +47,8 @@ impl Plan {
         let job = args.job(drawing.units)?;
         let tolerance = args.tolerance(drawing.units);
         progress.stage("chaining");
-        let pockets = pockets(&drawing, tolerance, timings, notices)?;
+        let from_depth = args.depth_of_pockets();
+        let pockets = pockets(&drawing, tolerance, from_depth, timings, notices)?;
         progress.stage("medial axis");
         let mats = timed(&mut timings.axis, || {
             pockets.iter().map(Pocket::medial_axis).collect::<Result<Vec<_>, _>>()
@@ -87,21 +90,34 @@ impl Plan {
 fn pockets(
     drawing: &Drawing,
     tolerance: Tolerance,
+    from_depth: usize,
     timings: &mut Timings,
     notices: &mut Vec<Notice>,
 ) -> Result<Vec<Pocket>, Failure> {
-    let Pockets { pockets, defects } =
-        timed(&mut timings.chain, || Pockets::from_curves(&drawing.curves, tolerance))?;
-    notices.extend(defects.iter().map(Notice::from));
-    if pockets.is_empty() {
-        let reason = match (drawing.curves.is_empty(), defects.is_empty()) {
-            (true, _) => "the drawing holds no curve that is read",
-            (false, true) => "no contour of the drawing is closed",
-            (false, false) => "no contour of the drawing is closed and free of crossings",
-        };
-        return Err(Error::NothingToMachine { reason: reason.into() }.into());
+    let found =
+        timed(&mut timings.chain, || Pockets::from_curves_at_depth(&drawing.curves, tolerance, from_depth))?;
+    notices.extend(found.defects.iter().map(Notice::from));
+    if from_depth == 0 {
+        notices.extend(found.lone_outline().map(Notice::outline_of_part));
     }
-    Ok(pockets)
+    if found.pockets.is_empty() {
+        let reason = nothing(drawing.curves.is_empty(), found.defects.is_empty(), from_depth);
+        return Err(Error::NothingToMachine { reason }.into());
+    }
+    Ok(found.pockets)
+}
+
+/// Why there is no pocket.
+fn nothing(no_curve: bool, no_defect: bool, from_depth: usize) -> String {
+    let reason = match (no_curve, no_defect) {
+        (true, _) => "the drawing holds no curve that is read",
+        (false, _) if from_depth > 0 => {
+            return format!("no good contour of the drawing lies inside {from_depth} others");
+        }
+        (false, true) => "no contour of the drawing is closed",
+        (false, false) => "no contour of the drawing is closed and free of crossings",
+    };
+    reason.to_owned()
 }
 
 fn count(mats: &[Mat], path: &Path, timings: &mut Timings) {

@@ -51,6 +51,11 @@ impl Args {
         }
     }
 
+    /// Nesting depth at which pockets begin.
+    pub fn depth_of_pockets(&self) -> usize {
+        if self.skip_outer { 1 } else { self.from_depth }
+    }
+
     /// Lengths that the user may choose.
     pub fn tolerance(&self, units: Units) -> Tolerance {
         let default = match units {
