@@ -202,3 +202,23 @@ fn rotated_start(spline: &ArcSpline, by: usize) -> ArcSpline {
     vertices.rotate_left(by % n);
     ArcSpline { vertices, closed: true }
 }
+
+/// The bisector of two equal circles is straight; round-off must not bend it into a Bezier curve whose
+/// control point lies anywhere on the line.
+#[test]
+fn edges_that_are_straight_but_for_round_off_have_their_control_point_between_the_ends() {
+    let r = 1.1;
+    for i in 0..40 {
+        let x = 70.2462463716 + 0.0137 * f64::from(i);
+        let island = |x: f64| ArcSpline::circle(point(x, 103.7364883679), r).reversed();
+        let outer = shapes::polygon(
+            [(50.0, 80.0), (120.0, 80.0), (120.0, 130.0), (50.0, 130.0)].map(|(x, y)| point(x, y)),
+        );
+        let mat = axis(&[outer, island(x), island(x + 22.6)]);
+        for e in mat.edges() {
+            let chord = e.points[2] - e.points[0];
+            let t = (e.points[1] - e.points[0]).dot(chord) / chord.length_squared();
+            assert!(t > 0.0 && t < 1.0 && e.weight > 0.1, "{i}: {e:?}");
+        }
+    }
+}

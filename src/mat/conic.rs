@@ -24,10 +24,17 @@ pub(super) fn bezier(sites: &[Site], graph: &Graph, edge: &GraphEdge) -> ([Point
     }
     let tangent = |n_a: Vector, n_b: Vector| (n_a - n_b).right();
     let (tu, tv) = (tangent(a.from.normal, b.to.normal), tangent(a.to.normal, b.from.normal));
-    let turn = tu.cross(tv);
     let chord = v - u;
-    let along = chord.cross(tv) / turn;
+    let along = chord.cross(tv) / tu.cross(tv);
     let middle = u + tu * along;
+    // The tangent turns by a quarter at most, so the control point lies between the ends. Where it
+    // does not, or where the triangle is as flat as a disk is uncertain, round-off bent a straight
+    // edge: the bisector of two equal circles, say.
+    let between = (middle - u).dot(chord) / chord.length_squared();
+    let height = (middle - u).cross(chord).abs() / chord.length();
+    if !(between > 0.0 && between < 1.0 && height > graph.error) {
+        return straight;
+    }
     let Some(s) = inner_point(sites, &a, &b) else { return straight };
     // Barycentric coordinates of S in the control triangle, each a ratio of areas.
     let (p0, p2) = (u - middle, v - middle);
@@ -36,8 +43,7 @@ pub(super) fn bezier(sites: &[Site], graph: &Graph, edge: &GraphEdge) -> ([Point
     let (l0, l2) = (q.cross(p2) / area, p0.cross(q) / area);
     let l1 = 1.0 - l0 - l2;
     let weight = l1 / (2.0 * (l0 * l2).sqrt());
-    // A control triangle as flat as round-off: the edge is straight to the last digits.
-    let good = along > 0.0 && l0 > 0.0 && l1 > 0.0 && l2 > 0.0 && weight.is_finite() && middle.is_finite();
+    let good = l0 > 0.0 && l1 > 0.0 && l2 > 0.0 && weight.is_finite();
     if good { ([u, middle, v], weight) } else { straight }
 }
 
