@@ -116,6 +116,47 @@ fn cases() -> Vec<Case> {
             ],
         ),
     ];
+    // The interior may fall apart where islands touch in more than one point.
+    cases.extend([
+        case(
+            "island touching both walls",
+            vec![rectangle(0.0, 0.0, 40.0, 10.0), circle(20.0, 5.0, 5.0).reversed()],
+        ),
+        case(
+            "square island touching three walls",
+            vec![rectangle(0.0, 0.0, 40.0, 10.0), regular(4, point(35.0, 5.0), 5.0).reversed()],
+        ),
+        case(
+            "three round islands touching each other",
+            vec![
+                rectangle(-40.0, -40.0, 40.0, 40.0),
+                circle(-8.0, 0.0, 8.0).reversed(),
+                circle(8.0, 0.0, 8.0).reversed(),
+                circle(0.0, 8.0 * 3f64.sqrt(), 8.0).reversed(),
+            ],
+        ),
+        case(
+            "ring of four round islands",
+            vec![
+                rectangle(-40.0, -40.0, 40.0, 40.0),
+                circle(-8.0, -8.0, 8.0).reversed(),
+                circle(8.0, -8.0, 8.0).reversed(),
+                circle(8.0, 8.0, 8.0).reversed(),
+                circle(-8.0, 8.0, 8.0).reversed(),
+            ],
+        ),
+        case(
+            "ring of four round islands round a fifth",
+            vec![
+                rectangle(-40.0, -40.0, 40.0, 40.0),
+                circle(-8.0, -8.0, 8.0).reversed(),
+                circle(8.0, -8.0, 8.0).reversed(),
+                circle(8.0, 8.0, 8.0).reversed(),
+                circle(-8.0, 8.0, 8.0).reversed(),
+                circle(0.0, 0.0, 2.0).reversed(),
+            ],
+        ),
+    ]);
     for sides in [3, 4, 5, 6, 8, 17, 100, 1000] {
         cases.push(case(format!("regular {sides}-gon"), vec![regular(sides, point(0.0, 0.0), 50.0)]));
         let ring =
