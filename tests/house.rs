@@ -1,4 +1,7 @@
-//! What the repository tells its readers is so: pictures, help text, names.
+//! What the repository tells its readers is so: pictures, help text, code, commands.
+//!
+//! After a change that is meant: `cargo run --example figures`, and
+//! `UPDATE_README=1 cargo test --test house`.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -72,6 +75,9 @@ fn the_readme_shows_the_help_as_it_is() {
     let trimmed = |t: String| t.lines().map(str::trim_end).collect::<Vec<_>>().join("\n").trim().to_owned();
     let shown = trimmed(fenced_after("## Options"));
     let help = trimmed(printed(&["-h"]));
+    if std::env::var_os("UPDATE_README").is_some() {
+        return fs::write(root().join("README.md"), text("README.md").replace(&shown, &help)).unwrap();
+    }
     assert!(shown == help, "the help text in README.md is not up to date; it should be:\n{help}");
 }
 
