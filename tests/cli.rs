@@ -414,3 +414,21 @@ fn a_reader_that_goes_away_is_quiet_success() {
     assert!(output.status.success());
     assert!(output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
 }
+
+/// The way inward links as often as the way outward: its passes begin at the feet of the inner ones.
+#[test]
+fn clearing_from_outside_retracts_no_more_often() {
+    let desk = Desk::new("");
+    let retracts = |name: &str, start: &str| {
+        let drawing = sample(name);
+        let run = desk
+            .pocket(&[drawing.to_str().unwrap(), "--step", "0.5", "--start", start, "--report", "json"])
+            .assert()
+            .success();
+        let report: serde_json::Value = serde_json::from_slice(&run.get_output().stdout).unwrap();
+        report["path"]["retracts"].as_u64().unwrap()
+    };
+    for name in ["gear.dxf", "keyhole.dxf", "rect-island.dxf", "sharp.dxf"] {
+        assert_eq!(retracts(name, "outside"), retracts(name, "inside"), "{name}");
+    }
+}

@@ -42,6 +42,8 @@ struct Ground<'a> {
     done: Vec<bool>,
     /// The pass in whose end the tool stands.
     last: Option<usize>,
+    /// Where each pass should begin, if that is known before.
+    begin: Vec<Option<Point>>,
 }
 
 /// From where to where one height is cut.
@@ -67,11 +69,15 @@ impl<'a> Planner<'a> {
         let slack = LEVEL_ERROR * bounds.magnitude();
         let nest = Nest::new(levels, slack);
         let order = nest.order(self.job.start);
-        let done = vec![false; order.len()];
+        let (done, begin) = (vec![false; order.len()], vec![None; order.len()]);
         let last = self.last_passes(levels, &nest);
-        let mut ground = Ground { levels, nest, is_clear, slack, done, last: None };
+        let mut ground = Ground { levels, nest, is_clear, slack, done, last: None, begin };
         let needed = order.into_iter().filter(|&p| !ground.is_covered(p));
         let (wall, rough): (Vec<usize>, Vec<usize>) = needed.partition(|&p| last[p]);
+        if self.job.start == Start::Outside {
+            ground.plan_beginnings(&rough);
+            ground.plan_beginnings(&wall);
+        }
         let heights = self.job.heights();
         let mut surface = self.job.top;
         for &z in &heights {
@@ -136,8 +142,8 @@ impl<'a> Planner<'a> {
         let course = match linked.or_else(|| self.door(ground, pass, &course, height)) {
             Some(course) => course,
             None => {
-                let place = ground.toward(pass, next).unwrap_or_else(|| course.calm_place());
-                let place = course.nearest(place);
+                let place = ground.begin[pass].or_else(|| ground.toward(pass, next));
+                let place = course.nearest(place.unwrap_or_else(|| course.calm_place()));
                 self.enter(course.begun_at(place, ground.slack), height)?
             }
         };
@@ -171,13 +177,14 @@ impl<'a> Planner<'a> {
         let doors = ground.nest.inner[pass].iter().chain(&ground.nest.outer[pass]);
         doors.into_iter().find(|d| d.pass == last)?;
         let here = self.cutter.at()?;
-        let begun = course.clone().begun_at(course.nearest(here), ground.slack);
-        let link = Element::segment(here, begun.start);
-        if !self.may_link(ground, &link, pass, last) {
-            return None;
-        }
-        self.cutter.cut(&link);
-        Some(begun)
+        [ground.begin[pass], Some(here)].into_iter().flatten().find_map(|place| {
+            let begun = course.clone().begun_at(course.nearest(place), ground.slack);
+            let link = Element::segment(here, begun.start);
+            self.may_link(ground, &link, pass, last).then(|| {
+                self.cutter.cut(&link);
+                begun
+            })
+        })
     }
 
     /// Down beside the pass, into a neighbor that is already cut, and straight over from there.
@@ -188,26 +195,26 @@ impl<'a> Planner<'a> {
         let open = inner.chain(outer).filter(|(d, _)| ground.done[d.pass]);
         let (door, inside) =
             open.min_by(|(a, _), (b, _)| a.at.distance(here).total_cmp(&b.at.distance(here)))?;
-        let begun = course.clone().begun_at(course.nearest(door.at), ground.slack);
-        let from = if inside {
-            door.at
-        } else {
-            Course::along(ground.spline(door.pass), false)?.nearest(begun.start).point
-        };
-        let link = Element::segment(from, begun.start);
-        if !self.may_link(ground, &link, pass, door.pass) {
-            return None;
-        }
-        self.cutter.over(from, height.z);
-        self.cutter.plunge(height.z);
-        self.cutter.cut(&link);
-        Some(begun)
+        [ground.begin[pass], Some(door.at)].into_iter().flatten().find_map(|place| {
+            let begun = course.clone().begun_at(course.nearest(place), ground.slack);
+            let from = if inside {
+                door.at
+            } else {
+                Course::along(ground.spline(door.pass), false)?.nearest(begun.start).point
+            };
+            let link = Element::segment(from, begun.start);
+            self.may_link(ground, &link, pass, door.pass).then(|| {
+                self.cutter.over(from, height.z);
+                self.cutter.plunge(height.z);
+                self.cutter.cut(&link);
+                begun
+            })
+        })
     }
 
     fn may_link(&self, ground: &Ground, link: &Element, a: usize, b: usize) -> bool {
-        let distance = |pass: usize| ground.levels[ground.nest.passes[pass].level].distance;
-        let apart = (distance(a) - distance(b)).abs();
-        link.length() <= apart + ground.slack && (ground.is_clear)(link, self.job.wall_distance())
+        link.length() <= ground.apart(a, b) + ground.slack
+            && (ground.is_clear)(link, self.job.wall_distance())
     }
 
     /// Down into full stock: along the pass where it is long enough, else straight.
@@ -262,6 +269,33 @@ impl Ground<'_> {
     /// farther from that loop than the step, and plunging there would only harm.
     fn is_covered(&self, pass: usize) -> bool {
         self.spline(pass).is_empty() && !self.nest.outer[pass].is_empty()
+    }
+
+    /// Chooses where passes begin that are cut from the wall inward. A closed pass ends where it
+    /// began, and only the way outward from a place to its foot on the next pass is sure to be no
+    /// longer than the step: so the innermost pass of a chain chooses, and its feet are where the
+    /// others begin.
+    fn plan_beginnings(&mut self, order: &[usize]) {
+        for (i, &pass) in order.iter().enumerate().rev() {
+            let Some(course) = Course::along(self.spline(pass), false) else { continue };
+            let next = order.get(i + 1);
+            let door = self.nest.inner[pass].iter().find(|d| Some(&d.pass) == next).copied();
+            let mut place = course.nearest(course.calm_place());
+            if let Some(door) = door {
+                place = course.nearest(self.begin[door.pass].unwrap_or(door.at));
+                if place.distance > self.apart(pass, door.pass) + self.slack {
+                    self.begin[door.pass] = Some(door.at);
+                    place = course.nearest(door.at);
+                }
+            }
+            self.begin[pass] = Some(place.point);
+        }
+    }
+
+    /// Difference of the distances of two passes from the wall.
+    fn apart(&self, a: usize, b: usize) -> f64 {
+        let distance = |pass: usize| self.levels[self.nest.passes[pass].level].distance;
+        (distance(a) - distance(b)).abs()
     }
 
     /// A place of the pass from which the next one lies straight across, if that is a neighbor.
