@@ -159,9 +159,11 @@ fn cases() -> Vec<Case> {
     ]);
     for sides in [3, 4, 5, 6, 8, 17, 100, 1000] {
         cases.push(case(format!("regular {sides}-gon"), vec![regular(sides, point(0.0, 0.0), 50.0)]));
-        let ring =
-            vec![regular(sides, point(0.0, 0.0), 50.0), regular(sides, point(0.0, 0.0), 20.0).reversed()];
-        cases.push(case(format!("ring of {sides}-gons"), ring));
+        if sides <= 100 {
+            let outer = regular(sides, point(0.0, 0.0), 50.0);
+            let ring = vec![outer, regular(sides, point(0.0, 0.0), 20.0).reversed()];
+            cases.push(case(format!("ring of {sides}-gons"), ring));
+        }
     }
     for teeth in [4, 12, 60, 250] {
         for hole in [false, true] {
