@@ -84,3 +84,14 @@ fn a_disk_reaches_all_of_a_square_but_its_corners() {
     }
     assert_eq!(mat.unreachable_area(4.6), 81.0);
 }
+
+/// A slot as wide as the disk is reached to its round ends, a bore of its diameter altogether.
+#[test]
+fn a_disk_reaches_all_of_what_it_just_fits() {
+    let slot = ArcSpline::closed([(0.0, -6.0, 0.0), (48.0, -6.0, 1.0), (48.0, 6.0, 0.0), (0.0, 6.0, 1.0)]);
+    for loops in [vec![slot], vec![ArcSpline::circle(medial::point(3.0, 4.0), 6.0)]] {
+        let mat = axis(&loops);
+        assert!(mat.unreachable_area(6.0) < 1e-10, "{}", mat.unreachable_area(6.0));
+        assert_eq!((mat.level(6.0).loops.len(), mat.level(6.0).ridges.len()), (0, 1));
+    }
+}

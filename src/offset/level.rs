@@ -39,7 +39,7 @@ impl Mat {
         }
         let tracer = Tracer::new(self, unit);
         level.loops = tracer.walks().iter().filter_map(|walk| tracer.offset_loop(walk)).collect();
-        level.ridges = tracer.ridges();
+        level.ridges = tracer.ridges().into_iter().map(|ridge| ridge.spline).collect();
         level
     }
 }

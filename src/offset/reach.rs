@@ -1,5 +1,6 @@
 //! What a round tool can reach.
 
+use super::ridge::Ridge;
 use super::trace::{Stretch, Tracer};
 use crate::geom::{ArcSpline, Element, Point, Vertex};
 use crate::mat::{Mat, Sets};
@@ -23,7 +24,7 @@ impl Mat {
         let loops: f64 = tracer.walks().iter().map(|walk| tracer.outline(walk).area()).sum();
         let scale = self.frame.length_out(1.0);
         let overlap = tracer.overlap();
-        let ridges: f64 = self.level(radius).ridges.iter().map(|ridge| ridge_area(ridge, radius)).sum();
+        let ridges: f64 = tracer.ridges().iter().map(|ridge| ridge_area(ridge, radius)).sum();
         (whole - (loops - overlap) * scale * scale - ridges).clamp(0.0, whole)
     }
 
@@ -43,15 +44,10 @@ impl Mat {
     }
 }
 
-/// Area swept by a disk along a ridge: twice the radius times the length, and half a disk at each
-/// end. (An end that lies on a loop is counted with the loop already; its half disk lies in the slot
-/// and the loop's cap covers as much of it.)
-fn ridge_area(ridge: &ArcSpline, radius: f64) -> f64 {
-    match (ridge.closed, ridge.vertices.len()) {
-        (true, _) => 2.0 * radius * ridge.length(),
-        (false, 1) => PI * radius * radius,
-        (false, _) => 2.0 * radius * ridge.length(),
-    }
+/// Area swept by a disk along a ridge: twice the radius times the length, and half a disk at each end
+/// that leads nowhere. (At an end on a loop, what the loop reaches covers as much of the slot.)
+fn ridge_area(ridge: &Ridge, radius: f64) -> f64 {
+    2.0 * radius * ridge.spline.length() + 0.5 * PI * radius * radius * f64::from(ridge.free_ends)
 }
 
 impl Tracer<'_> {

@@ -4,6 +4,13 @@ use super::trace::Tracer;
 use crate::geom::{ArcSpline, Vertex};
 use std::collections::BTreeMap;
 
+/// A ridge, in job units.
+pub(super) struct Ridge {
+    pub spline: ArcSpline,
+    /// How many of its ends lead nowhere: neither to a loop nor to another ridge.
+    pub free_ends: u32,
+}
+
 /// A way along a ridge: an edge of the axis, and whether it is run from its end to its start.
 #[derive(Clone, Copy)]
 struct Way {
@@ -17,8 +24,8 @@ impl Tracer<'_> {
         (self.mat.graph.disks[vertex as usize].radius - self.d).abs() <= self.mat.graph.error
     }
 
-    /// The ridges, in job units: paths between their branchings and ends, rings, single places.
-    pub fn ridges(&self) -> Vec<ArcSpline> {
+    /// The ridges: paths between their branchings and ends, rings, single places.
+    pub fn ridges(&self) -> Vec<Ridge> {
         let mut ways: BTreeMap<u32, Vec<Way>> = BTreeMap::new();
         let mut beside: Vec<u32> = Vec::new();
         for &edge in &self.edges {
@@ -33,18 +40,20 @@ impl Tracer<'_> {
                 _ => {}
             }
         }
-        let mut ridges = self.chains(&ways);
         beside.sort_unstable();
+        let mut ridges = self.chains(&ways, &beside);
         for peak in self.mat.radii().peaks_at(self.d) {
             if !ways.contains_key(&peak) && beside.binary_search(&peak).is_err() {
                 let point = self.mat.frame.leave(self.mat.graph.disks[peak as usize].center);
-                ridges.push(ArcSpline { vertices: vec![Vertex { point, bulge: 0.0 }], closed: false });
+                let spline = ArcSpline { vertices: vec![Vertex { point, bulge: 0.0 }], closed: false };
+                ridges.push(Ridge { spline, free_ends: 2 });
             }
         }
         ridges
     }
 
-    fn chains(&self, ways: &BTreeMap<u32, Vec<Way>>) -> Vec<ArcSpline> {
+    fn chains(&self, ways: &BTreeMap<u32, Vec<Way>>, beside: &[u32]) -> Vec<Ridge> {
+        let is_free = |end: u32| ways[&end].len() == 1 && beside.binary_search(&end).is_err();
         let mut done = std::collections::HashSet::new();
         let mut ridges = Vec::new();
         // From ends and branchings first; what is left over are rings.
@@ -68,7 +77,8 @@ impl Tracer<'_> {
                     let point = self.mat.frame.leave(self.mat.graph.disks[way.to as usize].center);
                     vertices.push(Vertex { point, bulge: 0.0 });
                 }
-                ridges.push(ArcSpline { vertices, closed });
+                let free_ends = u32::from(is_free(start)) + u32::from(is_free(way.to));
+                ridges.push(Ridge { spline: ArcSpline { vertices, closed }, free_ends });
             }
         }
         ridges
