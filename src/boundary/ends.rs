@@ -28,7 +28,7 @@ pub(super) fn curve_of(end: End) -> usize {
 
 /// The last element at an end, running away from it.
 pub(super) fn leaving(path: &ArcSpline, end: End) -> Element {
-    if end % 2 == 0 { path.element(0) } else { path.element(path.len() - 1).reversed() }
+    if end.is_multiple_of(2) { path.element(0) } else { path.element(path.len() - 1).reversed() }
 }
 
 /// Nodes where ends meet, and the curves that are kept.

@@ -192,7 +192,7 @@ mod tests {
     fn flat_arcs_that_meet_at_a_small_angle_have_one_common_place() {
         // Found from the full curves, the joint is farther off than the round-off of places.
         let joint = (26.842_002_312_049_328, -34.011_001_582_397_924);
-        let a = arc((30.918_139_195_155_106, -36.818_550_187_84), joint, -0.000_993_878_069_796_762_9);
+        let a = arc((30.918_139_195_155_106, -36.818_550_187_84), joint, -0.000993878069796763);
         let b = arc(joint, (25.702_687_769_722_46, -33.230_187_640_786_48), 0.002_215_891_098_417_007_4);
         for (a, b) in [(a, b), (b, a), (a.reversed(), b.reversed())] {
             let mut found = Vec::new();

@@ -103,7 +103,7 @@ fn a_ring_closed_on_itself_is_an_outer_loop_and_an_island() {
         (6.0, 6.0),
         (6.0, 2.0),
     ]);
-    let found = drawn(&[ring.clone()]);
+    let found = drawn(std::slice::from_ref(&ring));
     assert!(found.defects.is_empty());
     assert_eq!(islands(&found), [1]);
     assert!((found.pockets[0].area() - ring.area()).abs() < 1e-12);

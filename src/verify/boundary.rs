@@ -190,7 +190,7 @@ mod tests {
             let (x, y) = (0.3 * f64::from(i).sqrt() * c, 0.3 * f64::from(i).sqrt() * s);
             let corner = |k: f64| {
                 let (s, c) = (f64::from(i) + k).sin_cos();
-                (x + 0.1 * c, y + 0.1 * s, if i % 3 == 0 { 0.2 } else { 0.0 })
+                (x + 0.1 * c, y + 0.1 * s, if i.is_multiple_of(3) { 0.2 } else { 0.0 })
             };
             ArcSpline::closed([corner(0.0), corner(2.0), corner(4.0)])
         };

@@ -110,7 +110,7 @@ impl Args {
         match (tool, self.step) {
             (None, Some(Step::Length(step))) => Ok((2.0 * step.to(units), step.to(units))),
             (Some(tool), Some(Step::Length(step))) => Ok((tool, step.to(units))),
-            (Some(tool), _) if tool == 0.0 => Err(Failure::usage(
+            (Some(0.0), _) => Err(Failure::usage(
                 "--tool 0 needs a step that is a length",
                 "say how far the level sets lie apart: --step 0.5",
             )),
