@@ -10,7 +10,7 @@ use super::site::{Foot, Joint, NONE, Site};
 use super::splice::{Drawn, TANGENT_ROUNDINGS, place_key, splice};
 use super::{SiteKind, SiteRef};
 use crate::boundary::Pocket;
-use crate::geom::{Element, Point, Vector};
+use crate::geom::{Point, Vector};
 use std::collections::HashMap;
 use std::f64::consts::FRAC_PI_2;
 use std::ops::Range;
@@ -281,11 +281,4 @@ fn joint_between(part: &Part, after: &Part, noise: f64) -> Joint {
     } else {
         Joint::Cone
     }
-}
-
-/// A site as an element, for tests and pictures.
-#[allow(dead_code)]
-pub(crate) fn as_element(site: &Site) -> Element {
-    let half = 0.5 * (site.end.point - site.start.point).length() * site.curvature;
-    Element::arc(site.start.point, site.end.point, half / (1.0 + (1.0 - half * half).max(0.0).sqrt()))
 }
