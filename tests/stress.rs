@@ -29,6 +29,9 @@ fn every_random_axis_passes_its_check() {
     assert!(faults.is_empty(), "{} failures:\n{}", faults.len(), faults.join("\n"));
 }
 
+/// Largest residual, relative to the size, where an element of that share of it is tilted by round-off.
+const TILT: f64 = 1e-8;
+
 /// A vertex drawn twice, not quite at one place: the element between has no direction of its own.
 #[test]
 fn elements_as_short_as_round_off_do_no_harm() {
@@ -40,8 +43,13 @@ fn elements_as_short_as_round_off_do_no_harm() {
                 let mut loops = shapes::make(kind, 300, seed);
                 insert_short_element(&mut loops[0], 17, length);
                 let mat = Pocket::from_loops(loops, Tolerance::MM).and_then(|p| p.medial_axis());
-                let fault = mat.map_err(|e| e.to_string()).and_then(|m| m.check().map_err(|e| e.to_string()));
-                faults.extend(fault.err().map(|e| format!("{kind}, seed {seed}, {length:e}: {e}")));
+                let residuals =
+                    mat.map_err(|e| e.to_string()).and_then(|m| m.check().map_err(|e| e.to_string()));
+                let worst = residuals.map(|r| r.empty.max(r.touch).max(r.monotone));
+                // The certificate allows for the tilt of such elements; what they do must stay far below.
+                if !worst.as_ref().is_ok_and(|w| *w < TILT) {
+                    faults.push(format!("{kind}, seed {seed}, {length:e}: {worst:?}"));
+                }
             }
         }
     }

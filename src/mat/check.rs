@@ -3,6 +3,7 @@
 use super::bvh::SearchDisk;
 use super::graph::Graph;
 use super::lamination::UnitDisk;
+use super::splice::TANGENT_ROUNDINGS;
 use super::track::Track;
 use super::union::Sets;
 use super::{Mat, Mismatch};
@@ -67,10 +68,12 @@ impl Mat {
         }
     }
 
-    /// Largest residual that is round-off, in the unit frame: that of the numbers, and what a disk of
-    /// the size of the pocket is tilted by at a joint between elements as short as round-off.
+    /// Largest residual that is round-off, in the unit frame: that of the numbers, and that of elements
+    /// as short as round-off. Noise tilts an element of length `l` by up to `c noise / l`, but what it
+    /// owns is no wider than `l`; of the two the smaller counts, which is at most the root of `c noise`.
     pub(super) fn residual_error(&self) -> f64 {
-        RESIDUAL_ROUNDINGS * self.frame.noise + self.blur
+        let noise = self.frame.noise;
+        RESIDUAL_ROUNDINGS * noise + self.blur.min((2.0 * TANGENT_ROUNDINGS * noise).sqrt())
     }
 
     /// How far the boundary reaches into a disk.
