@@ -105,7 +105,7 @@ pub use boundary::{Curve, Pocket, Pockets, Source};
 pub use error::{Defect, Error};
 pub use geom::{ArcSpline, Bounds, Element, Point, Vector, Vertex, point, vector};
 pub use mat::{AxisEdge, AxisVertex, Counts, Disk, Kind, Mat, Mismatch, Residuals, SiteKind, SiteRef};
-pub use offset::Level;
+pub use offset::{Level, MergeTree, Part};
 pub use tolerance::{Tolerance, Units};
 pub use toolpath::{Direction, Entry, Job, Move, Path, PocketPath, Point3, Start, Strategy, Totals};
 pub use verify::{Fault, FaultKind, LevelReport};

@@ -95,3 +95,26 @@ fn a_disk_reaches_all_of_what_it_just_fits() {
         assert_eq!((mat.level(6.0).loops.len(), mat.level(6.0).ridges.len()), (0, 1));
     }
 }
+
+/// The merge tree knows, without making a level, what every level consists of.
+#[test]
+fn the_merge_tree_counts_the_loops_of_every_level() {
+    for kind in shapes::KINDS {
+        for seed in 1..=5u64 {
+            let mat = axis(&shapes::make(kind, 400, seed));
+            let tree = mat.levels();
+            let mut radii: Vec<f64> = mat.vertices().iter().map(|v| v.disk.radius).collect();
+            radii.sort_by(f64::total_cmp);
+            // Between the radii of the vertices, where no count hangs on round-off.
+            let places = radii.windows(2).filter(|w| w[1] - w[0] > 1e-6 * w[1]).step_by(17);
+            for d in places.map(|w| 0.5 * (w[0] + w[1])) {
+                let loops = mat.level(d).loops;
+                let parts = tree.parts_at(d);
+                let outer = loops.iter().filter(|l| l.area() > 0.0).count();
+                let holes: usize = parts.iter().map(|&p| tree.holes_of(p, d)).sum();
+                let counted = (parts.len(), holes, tree.loops_at(d));
+                assert_eq!(counted, (outer, loops.len() - outer, loops.len()), "{kind}, seed {seed}, {d}");
+            }
+        }
+    }
+}

@@ -167,6 +167,11 @@ impl Mat {
         Counts { sites: self.sites.len(), vertices: self.graph.disks.len(), edges: self.graph.edges.len() }
     }
 
+    /// The disk of a vertex, in job units.
+    pub(crate) fn disk(&self, vertex: u32) -> Disk {
+        self.disk_out(&self.graph.disks[vertex as usize])
+    }
+
     pub(super) fn disk_out(&self, disk: &UnitDisk) -> Disk {
         Disk { center: self.frame.leave(disk.center), radius: self.frame.length_out(disk.radius) }
     }

@@ -11,8 +11,10 @@
 //! `d`. The order of walking is that of the axis; nothing is intersected or clipped.
 
 mod level;
+mod merge;
 mod reach;
 mod ridge;
 mod trace;
 
 pub use level::Level;
+pub use merge::{MergeTree, Part};
