@@ -2,7 +2,8 @@
 //!
 //! Prints for each kind of shape how many there were, their sites, the failures, and the worst
 //! figures relative to the size: the residual of the certificate, the deviation of brute-force disks
-//! from the axis, and that of a vertex when the same pocket is drawn in another way, or far away.
+//! from the axis, and that of a vertex when the same pocket is drawn in another way, or far away. Drawings
+//! whose elements are too short for coordinates far away are left out there, and counted.
 
 #[path = "../tests/support/alike.rs"]
 mod alike;
@@ -20,7 +21,7 @@ fn main() {
     let mut args = std::env::args().skip(1).map(|a| a.parse::<u64>().expect("a number"));
     let (seeds, size) = (args.next().unwrap_or(1000), args.next().unwrap_or(2000));
     let first = args.next().unwrap_or(1);
-    println!("      kind  shapes     sites  failures  residual   brute    alike      far");
+    println!("      kind  shapes     sites  failures  residual   brute    alike      far  left out");
     let mut failures = 0;
     for kind in shapes::KINDS {
         let results: Vec<Result<Figures, String>> = (first..first + seeds)
@@ -32,14 +33,15 @@ fn main() {
         faults.iter().for_each(|e| println!("{e}"));
         failures += faults.len();
         println!(
-            "{kind:>10}  {:>6}  {:>8}  {:>8}  {:.1e}  {:.1e}  {:.1e}  {:.1e}",
+            "{kind:>10}  {:>6}  {:>8}  {:>8}  {:.1e}  {:.1e}  {:.1e}  {:.1e}  {:>8}",
             results.len(),
             worst.sites,
             faults.len(),
             worst.residual,
             worst.brute,
             worst.alike,
-            worst.far
+            worst.far,
+            worst.left_out
         );
     }
     println!("{failures} failures");
@@ -54,7 +56,7 @@ fn spread(seed: u64, size: u64) -> usize {
     (LEAST * (size as f64 / LEAST).max(1.0).powf(share)).round() as usize
 }
 
-/// The worst of both in each figure; sites are added up.
+/// The worst of both in each figure; counts are added up.
 fn worse(a: Figures, b: &Figures) -> Figures {
     Figures {
         sites: a.sites + b.sites,
@@ -62,5 +64,6 @@ fn worse(a: Figures, b: &Figures) -> Figures {
         brute: a.brute.max(b.brute),
         alike: a.alike.max(b.alike),
         far: a.far.max(b.far),
+        left_out: a.left_out + b.left_out,
     }
 }

@@ -25,8 +25,16 @@ pub struct Map<'a> {
 /// them by chance, it is not as long as another.
 const TIES: [f64; 4] = [0.25, 0.07, 0.02, 0.005];
 
+/// Where sites are short or nearly parallel, round-off of the drawing moves a vertex farther than
+/// others. Up to this many times the distance allowed it is the same if its disk is as good over there.
+const LOOSE: f64 = 1e4;
+
+/// How much less than the distance allowed the radius of such a disk may differ from the distance.
+const AS_GOOD: f64 = 1e-3;
+
 /// Largest distance of vertices of `b` from those of `a` that they stand for, in units of `b`; or
-/// what is different. Vertices farther apart than `within` are different ones.
+/// what is different. Vertices farther apart than `within` are different ones, unless a disk is as
+/// good in either place.
 pub fn deviation(a: &Mat, b: &Mat, map: &Map<'_>, within: f64) -> Result<f64, String> {
     let same = |p: Point| p;
     let name = |s: SiteRef| s;
@@ -34,7 +42,7 @@ pub fn deviation(a: &Mat, b: &Mat, map: &Map<'_>, within: f64) -> Result<f64, St
     let mut first = None;
     for tie in TIES {
         let reduced = [(a, map), (b, &here)].map(|(mat, map)| Graph::of(mat, map).reduced(tie * within));
-        match compare(&reduced[0], &reduced[1], within) {
+        match compare(&reduced[0], &reduced[1], b, within) {
             Ok(worst) => return Ok(worst),
             Err(difference) => first = first.or(Some(difference)),
         }
@@ -160,8 +168,8 @@ impl Graph {
 }
 
 /// Largest distance of matched vertices, or the first difference.
-fn compare(a: &Graph, b: &Graph, within: f64) -> Result<f64, String> {
-    let (found, worst) = matched(a, b, within)?;
+fn compare(a: &Graph, b: &Graph, mat: &Mat, within: f64) -> Result<f64, String> {
+    let (found, worst) = matched(a, b, mat, within)?;
     if a.vertices.len() != b.vertices.len() {
         return Err(format!("{} vertices became {}", a.vertices.len(), b.vertices.len()));
     }
@@ -180,34 +188,34 @@ fn compare(a: &Graph, b: &Graph, within: f64) -> Result<f64, String> {
         let edge = one.iter().find(|e| other.binary_search(e).is_err());
         edge.map(|(ends, sites)| format!("{:?} between {sites:?}", ends.map(|v| b.vertices[v])))
     };
-    Err(format!("edges differ: {:?} became {:?}", only(&here, &there), only(&there, &here)))
+    Err(format!("edges are not the same: {:?} became {:?}", only(&here, &there), only(&there, &here)))
 }
 
 /// For every vertex of `a` the nearest of `b` that no other has taken, and the largest distance.
-fn matched(a: &Graph, b: &Graph, within: f64) -> Result<(Vec<usize>, f64), String> {
+fn matched(a: &Graph, b: &Graph, mat: &Mat, within: f64) -> Result<(Vec<usize>, f64), String> {
     let mut order: Vec<usize> = (0..b.vertices.len()).collect();
     order.sort_unstable_by(|&i, &j| b.vertices[i].place.x.total_cmp(&b.vertices[j].place.x));
     let mut taken = vec![false; b.vertices.len()];
     let mut worst = 0.0f64;
     let mut found = Vec::with_capacity(a.vertices.len());
     for vertex in &a.vertices {
-        let first = order.partition_point(|&i| b.vertices[i].place.x < vertex.place.x - within);
-        let near = order[first..].iter().take_while(|&&i| b.vertices[i].place.x <= vertex.place.x + within);
-        let distance = |i: &usize| b.vertices[*i].distance(vertex);
-        let best = near.filter(|i| !taken[**i]).min_by(|i, j| distance(i).total_cmp(&distance(j)));
-        match best {
-            Some(i) if distance(i) <= within => {
-                worst = worst.max(distance(i));
-                taken[*i] = true;
-                found.push(*i);
-            }
-            _ => {
-                return Err(format!(
-                    "{vertex:?} has no counterpart; the nearest is {:?} away",
-                    best.map(|i| distance(i))
-                ));
-            }
+        let nearest = |reach: f64| {
+            let first = order.partition_point(|&i| b.vertices[i].place.x < vertex.place.x - reach);
+            let last = order.partition_point(|&i| b.vertices[i].place.x <= vertex.place.x + reach);
+            let free = order[first..last].iter().filter(|i| !taken[**i]);
+            let near = free.map(|&i| (b.vertices[i].distance(vertex), i)).filter(|(d, _)| *d <= reach);
+            near.min_by(|i, j| i.0.total_cmp(&j.0))
+        };
+        let as_good = || (mat.distance(vertex.place) - vertex.radius).abs() <= AS_GOOD * within;
+        let close = nearest(within);
+        let Some((distance, i)) = close.or_else(|| nearest(LOOSE * within).filter(|_| as_good())) else {
+            return Err(format!("{vertex:?} has no counterpart"));
+        };
+        if close.is_some() {
+            worst = worst.max(distance);
         }
+        taken[i] = true;
+        found.push(i);
     }
     Ok((found, worst))
 }

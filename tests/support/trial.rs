@@ -17,8 +17,10 @@ pub struct Figures {
     pub brute: f64,
     /// Largest deviation of a vertex when the pocket is drawn in another way.
     pub alike: f64,
-    /// The same for a pocket drawn far away, where coordinates have six digits less.
+    /// The same for a pocket drawn a thousand sizes away, where coordinates have three digits less.
     pub far: f64,
+    /// Ways of drawing in which the directions of its elements would be lost.
+    pub left_out: usize,
 }
 
 /// The figures of one random shape, or what is wrong with it.
@@ -40,9 +42,14 @@ pub fn trial(loops: &[ArcSpline], seed: u64) -> Result<Figures, String> {
         brute: Brute::new(&pocket).deviation(&mat, seed, DISKS)?,
         ..Figures::default()
     };
+    let shortest = loops.iter().flat_map(|l| l.elements()).map(|e| e.length()).fold(f64::INFINITY, f64::min);
     for way in &ways(&pocket) {
+        if shortest < way.shortest() * pocket.bounds().diagonal() {
+            figures.left_out += 1;
+            continue;
+        }
         let off = way.deviation(loops, &pocket, &mat).map_err(|e| format!("{}: {e}", way.name))?;
-        let figure = if way.within > SAME { &mut figures.far } else { &mut figures.alike };
+        let figure = if way.coarser > 1.0 { &mut figures.far } else { &mut figures.alike };
         *figure = figure.max(off);
     }
     Ok(figures)
@@ -64,15 +71,22 @@ struct Way {
     mirrored: bool,
     /// What to do with the loops besides.
     redrawn: fn(Vec<ArcSpline>) -> Vec<ArcSpline>,
-    /// Distance, relative to the size, within which vertices are the same.
-    within: f64,
+    /// Digits that f64 holds less, as a factor; what is the same lies within that times [`SAME`].
+    coarser: f64,
 }
 
 /// Vertices that close, relative to the size, are the same.
 const SAME: f64 = 1e-9;
 
-/// Sizes by which a pocket is moved far away. There, f64 holds six digits less.
-const FAR: f64 = 1e6;
+/// What a level may move by when coordinates are rounded anew, relative to the largest of them.
+const LEVEL_ERROR: f64 = 64.0 * f64::EPSILON;
+
+/// Sizes by which a pocket is moved far away.
+const FAR: f64 = 1e3;
+
+/// Sizes by which it is moved so far that a vertex where sites are nearly parallel may lie anywhere
+/// near, and only the levels must be the same.
+const FARTHEST: f64 = 1e6;
 
 fn ways(pocket: &Pocket) -> Vec<Way> {
     let size = pocket.bounds().diagonal();
@@ -82,7 +96,7 @@ fn ways(pocket: &Pocket) -> Vec<Way> {
         scale,
         mirrored: false,
         redrawn: |loops| loops,
-        within: SAME,
+        coarser: 1.0,
     };
     let same = || Box::new(|p| p);
     let scaled = |name, scale: f64| way(name, scale, Box::new(move |p| point(scale * p.x, scale * p.y)));
@@ -91,7 +105,10 @@ fn ways(pocket: &Pocket) -> Vec<Way> {
         let v = p.to_vector().rotated(cos, sin);
         point(v.x, v.y)
     };
-    let far = Vector { x: FAR * size, y: -0.7 * FAR * size };
+    let moved = |name, sizes: f64| {
+        let by = Vector { x: sizes * size, y: -0.7 * sizes * size };
+        Way { coarser: sizes, ..way(name, 1.0, Box::new(move |p| p + by)) }
+    };
     vec![
         Way { redrawn: reversed, ..way("reversed", 1.0, same()) },
         Way { redrawn: restarted, ..way("another start", 1.0, same()) },
@@ -99,8 +116,9 @@ fn ways(pocket: &Pocket) -> Vec<Way> {
         way("turned", 1.0, Box::new(turned)),
         scaled("small", 1e-3),
         scaled("large", 1e3),
-        way("moved", 1.0, Box::new(move |p| p + far / FAR)),
-        Way { within: SAME * FAR, ..way("far away", 1.0, Box::new(move |p| p + far)) },
+        moved("moved", 1.0),
+        moved("far away", FAR),
+        moved("farthest away", FARTHEST),
     ]
 }
 
@@ -118,15 +136,27 @@ fn restarted(mut loops: Vec<ArcSpline>) -> Vec<ArcSpline> {
     loops
 }
 
+/// Roundings in the direction of an element, at its two ends.
+const DIRECTION_ROUNDINGS: f64 = 16.0;
+
 impl Way {
+    /// Length, relative to the size, that elements must have to be drawn this way: where round-off
+    /// tilts them by more than their own length, corners are other corners.
+    fn shortest(&self) -> f64 {
+        (DIRECTION_ROUNDINGS * f64::EPSILON * self.coarser).sqrt()
+    }
+
     /// How far the axis of a pocket drawn this way is from the axis as it was, relative to the size.
     fn deviation(&self, loops: &[ArcSpline], pocket: &Pocket, mat: &Mat) -> Result<f64, String> {
         let drawn = loops.iter().map(|l| l.mapped(self.mirrored, &self.place)).collect();
         let (there, other) = axis(&(self.redrawn)(drawn), self.scale)?;
         other.check().map_err(|e| e.to_string())?;
         let size = self.scale * pocket.bounds().diagonal();
-        let within = self.within * size;
+        let within = self.coarser * SAME * size;
         self.levels_alike(pocket, mat, &other)?;
+        if self.coarser >= FARTHEST {
+            return Ok(0.0);
+        }
         let names = Names::between(pocket, &there, &self.place, within)
             .ok_or_else(|| String::from("the loops are not the same"))?;
         let map = alike::Map { place: &self.place, scale: self.scale, site: &|s| names.of(s) };
@@ -136,7 +166,7 @@ impl Way {
     /// Levels are as many loops of the same length around the same area.
     fn levels_alike(&self, pocket: &Pocket, mat: &Mat, other: &Mat) -> Result<(), String> {
         let radius = mat.largest_disk().radius;
-        let within = self.within * self.scale * pocket.bounds().diagonal();
+        let within = (self.coarser * LEVEL_ERROR).max(SAME) * self.scale * pocket.bounds().diagonal();
         for fraction in [0.0713, 0.3171, 0.7317] {
             let d = fraction * radius;
             let (a, b) = (mat.level(d).loops, other.level(self.scale * d).loops);
