@@ -192,6 +192,8 @@ struct Part {
     /// Length of the chord that its normals come from, for their round-off: that of the element it is a
     /// part of, or of a longer one that lent it its direction.
     chord: f64,
+    /// Angle that it may turn by unseen: near the round-off, an arc is drawn straight.
+    unseen: f64,
     /// Whether it is the last part of its element.
     last: bool,
 }
@@ -221,6 +223,7 @@ fn quarter_parts(drawn: &Drawn) -> Vec<Part> {
         curvature: e.curvature(),
         source,
         chord: e.chord().length(),
+        unseen: 0.0,
         last: i + 1 == count,
     };
     (0..count).map(part).collect()
@@ -275,6 +278,8 @@ fn lend_directions(parts: &mut [Part], noise: f64) {
             let cos = (1.0 - sine * sine).max(0.0).sqrt();
             parts[to].start.normal = parts[to].start.normal.rotated(cos, sine);
             parts[to].end.normal = parts[to].end.normal.rotated(cos, sine);
+            let bend = parts[from].curvature.abs() + parts[beside(to, forward)].curvature.abs();
+            parts[to].unseen = bend * parts[to].chord;
             parts[to].chord = parts[from].chord;
             from = to;
         }
@@ -307,7 +312,7 @@ fn joint_between(part: &Part, after: &Part, noise: f64) -> Joint {
     let (n0, n1) = (part.end.normal, after.start.normal);
     let (turn, ahead) = (n0.cross(n1), n0.dot(n1));
     let error = TANGENT_ROUNDINGS * noise * (1.0 + part.chord.recip() + after.chord.recip());
-    if turn.abs() > error {
+    if turn.abs() > error + part.unseen + after.unseen {
         if turn > 0.0 { Joint::Convex } else { Joint::Cone }
     } else if ahead > 0.0 {
         Joint::Smooth { same_circle: false }
