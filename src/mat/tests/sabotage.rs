@@ -98,7 +98,7 @@ fn a_disk_moved_by_a_millionth_of_the_size_is_seen() {
             let by = Vector::from_angle(0.1 + way as f64 * std::f64::consts::TAU / DIRECTIONS as f64);
             let step = by * (HARM * size(mat));
             let disk = &mut mat.graph.disks[way / DIRECTIONS];
-            disk.center = disk.center + step;
+            disk.center += step;
             true
         },
     );
@@ -125,7 +125,7 @@ fn a_foot_moved_along_the_boundary_is_seen() {
             let next = mat.graph.pieces[way].next;
             let piece = &mut mat.graph.pieces[way].piece;
             let same_site = next != NONE && !mat.sites[piece.site as usize].is_vertex;
-            piece.to.point = piece.to.point + piece.to.normal.right() * step;
+            piece.to.point += piece.to.normal.right() * step;
             let foot = piece.to;
             if same_site {
                 mat.graph.pieces[next as usize].piece.from = foot;
