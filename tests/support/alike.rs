@@ -23,7 +23,7 @@ pub struct Map<'a> {
 
 /// Ties are contracted at these parts of the distance allowed; where an edge is as long as one of
 /// them by chance, it is not as long as another.
-const TIES: [f64; 4] = [0.25, 0.07, 0.02, 0.005];
+const TIES: [f64; 6] = [0.25, 0.07, 0.02, 0.005, 0.9, 3.0];
 
 /// Where sites are short or nearly parallel, round-off of the drawing moves a vertex farther than
 /// others. Up to this many times the distance allowed it is the same if its disk is as good over there.
