@@ -1,32 +1,43 @@
-//! Random pockets by the hundred: the certificate of the axis must hold for each.
+//! Random pockets by the hundred: certificate, brute force, and other ways to draw the same.
 
+#[path = "support/alike.rs"]
+mod alike;
+#[path = "support/brute.rs"]
+mod brute;
 #[path = "support/shapes.rs"]
 mod shapes;
+#[path = "support/trial.rs"]
+mod trial;
 
-use medial::{Pocket, Tolerance};
+use medial::{ArcSpline, Pocket, Point, Tolerance, point, verify};
 use rayon::prelude::*;
 
-/// What is wrong with the axis of one shape.
-fn fault(kind: &str, size: usize, seed: u64) -> Option<String> {
-    let named = |e: &dyn std::fmt::Display| format!("{kind} of {size} elements, seed {seed}: {e}");
-    let pocket = match Pocket::from_loops(shapes::make(kind, size, seed), Tolerance::MM) {
-        Ok(pocket) => pocket,
-        Err(e) => return Some(named(&e)),
-    };
-    match pocket.medial_axis() {
-        Err(e) => Some(named(&e)),
-        Ok(mat) => mat.check().err().map(|e| named(&e)),
-    }
-}
-
 #[test]
-fn every_random_axis_passes_its_check() {
+fn every_random_axis_passes_all_trials() {
     let faults: Vec<String> = shapes::KINDS
         .par_iter()
-        .flat_map(|kind| (1..=100u64).into_par_iter().map(move |seed| (*kind, seed)))
-        .filter_map(|(kind, seed)| fault(kind, 30 + (seed as usize * 2711) % 1970, seed))
+        .flat_map(|kind| (1..=12u64).into_par_iter().map(move |seed| (*kind, seed)))
+        .filter_map(|(kind, seed)| trial::run(kind, 30 + (seed as usize * 2711) % 1470, seed).err())
         .collect();
     assert!(faults.is_empty(), "{} failures:\n{}", faults.len(), faults.join("\n"));
+}
+
+/// Two circles whose joints face each other but for 7e-10 of the size: contacts so near to the end of
+/// an arc were taken for the end, and the two disks for one.
+#[test]
+fn contacts_next_to_the_end_of_an_arc_lie_beside_it() {
+    trial::run("symmetric", 54, 23).unwrap();
+    let gap = 1e-8;
+    let plate =
+        shapes::polygon([(0.0, 0.0), (60.0, 0.0), (60.0, 30.0), (0.0, 30.0)].map(|(x, y)| point(x, y)));
+    let islands = [(20.0, 15.0), (40.0, 15.0 + gap)].map(|(x, y)| ArcSpline::circle(point(x, y), 5.0));
+    let turned = |p: Point| point(0.8 * p.x - 0.6 * p.y, 0.6 * p.x + 0.8 * p.y);
+    let loops = [&plate, &islands[0], &islands[1]].map(|l| l.mapped(false, turned)).to_vec();
+    let mat = Pocket::from_loops(loops, Tolerance::MM).unwrap().medial_axis().unwrap();
+    let neck = turned(point(30.0, 15.0 + 0.5 * gap));
+    let near = mat.vertices().iter().filter(|v| v.disk.center.distance(neck) < 2.0 * gap).count();
+    // Each of the joints, and between them where the disk is smallest, if that is seen.
+    assert!((2..=3).contains(&near) && mat.check().unwrap().foot < 1e-14, "{near} vertices");
 }
 
 /// Largest residual, relative to the size, where an element of that share of it is tilted by round-off.
@@ -41,7 +52,7 @@ fn elements_as_short_as_round_off_do_no_harm() {
         for seed in 1..=10u64 {
             for length in lengths {
                 let mut loops = shapes::make(kind, 300, seed);
-                insert_short_element(&mut loops[0], 17, length);
+                insert_short_element(&mut loops[0], 7, length);
                 let mat = Pocket::from_loops(loops, Tolerance::MM).and_then(|p| p.medial_axis());
                 let residuals =
                     mat.map_err(|e| e.to_string()).and_then(|m| m.check().map_err(|e| e.to_string()));
@@ -56,8 +67,26 @@ fn elements_as_short_as_round_off_do_no_harm() {
     assert!(faults.is_empty(), "{} failures:\n{}", faults.len(), faults.join("\n"));
 }
 
+/// An element of 2e-12 between two flat arcs, as rounding makes it: its direction is noise and must not
+/// become that of the level (which was off by 7e-7).
+#[test]
+fn an_element_without_a_direction_takes_that_of_its_neighbor() {
+    let sliver = ArcSpline::closed([
+        (30.918139195155106, -36.81855018784, -0.0009938780697963474),
+        (26.84200231205103, -34.0110015823991, -4.154398714699462e-16),
+        (26.842002312049328, -34.011001582397924, 0.0022158910984170074),
+        (25.70268776972246, -33.23018764078648, 0.0),
+        (20.0, -100.0, 0.0),
+        (149.9, -100.0, 0.0),
+    ]);
+    let pocket = Pocket::from_loops(vec![sliver], Tolerance::MM).expect("a pocket");
+    let level = pocket.medial_axis().expect("an axis").level(0.9005);
+    let report = verify::level(pocket.loops(), 0.9005, &level.loops);
+    assert!(report.is_right() && report.max_deviation < 1e-12 * pocket.bounds().diagonal(), "{report:?}");
+}
+
 /// Splits element `i` in its middle, and again a given length further on.
-fn insert_short_element(spline: &mut medial::ArcSpline, i: usize, length: f64) {
+fn insert_short_element(spline: &mut ArcSpline, i: usize, length: f64) {
     let (before, rest) = spline.element(i).split(0.5);
     let (short, after) = rest.split((length / rest.length()).min(0.9));
     spline.vertices[i].bulge = before.bulge;

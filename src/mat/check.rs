@@ -1,8 +1,9 @@
 //! The certificate of an axis: residuals and topology, measured anew.
 
 use super::bvh::SearchDisk;
-use super::graph::Graph;
-use super::lamination::UnitDisk;
+use super::graph::{BoundaryPiece, Graph, GraphEdge};
+use super::lamination::{Piece, UnitDisk};
+use super::site::{Foot, NONE};
 use super::splice::TANGENT_ROUNDINGS;
 use super::track::Track;
 use super::union::Sets;
@@ -17,55 +18,70 @@ use crate::geom::Point;
 pub(super) const RESIDUAL_ROUNDINGS: f64 = 131_072.0;
 
 impl Mat {
-    /// Holds the axis against its boundary: every disk touches both its sites and contains no
-    /// boundary (at the vertices and in the middle of each edge), the radius is monotone along
-    /// edges, the graph is connected, and V - E = 1 - islands.
+    /// Holds the axis against its boundary: it is connected and V - E = 1 - islands; its edges lie
+    /// along the whole boundary in its order, and consecutive ones meet in a disk; every disk touches
+    /// the sites it should, in the direction of their normals, and contains no boundary (at the
+    /// vertices and in the middle of each edge); the radius is monotone along edges.
     ///
     /// # Errors
     /// The first [`Mismatch`] found.
     pub fn check(&self) -> Result<Residuals, Mismatch> {
         self.check_topology()?;
-        let mut residuals = Residuals::default();
-        let mut worst = (0.0, Point::default());
-        let mut note = |value: f64, at: Point, slot: &mut f64| {
-            *slot = slot.max(value);
-            // NaN is as bad as it gets.
-            if value > worst.0 || value.is_nan() {
-                worst = (value, at);
-            }
-        };
+        let mut found = Findings::default();
+        for touch in self.touches()? {
+            self.check_touch(&touch, &mut found);
+        }
         for disk in &self.graph.disks {
-            note(self.intrusion(disk), disk.center, &mut residuals.empty);
+            found.note(Residual::Empty, self.intrusion(disk), disk.center);
         }
         for edge in &self.graph.edges {
-            for (i, &d) in edge.disks.iter().enumerate() {
-                let disk = &self.graph.disks[d as usize];
-                for (j, &p) in edge.pieces.iter().enumerate() {
-                    let piece = &self.graph.pieces[p as usize].piece;
-                    let foot = if i == j { piece.from } else { piece.to };
-                    let gap = (foot.point.distance(disk.center) - disk.radius).abs();
-                    note(gap, disk.center, &mut residuals.touch);
-                    let site = &self.sites[piece.site as usize];
-                    note(site.distance(foot.point), disk.center, &mut residuals.touch);
-                }
-            }
-            let pieces = edge.pieces.map(|p| self.graph.pieces[p as usize].piece);
-            let track = Track::of(&self.sites, &pieces[0]);
-            let probe = track.at(0.5);
-            let (radius, _) = track.reach(&self.sites, &pieces[1], &probe);
-            if radius.is_finite() {
-                let disk = UnitDisk { center: probe.center(radius), radius };
-                note(self.intrusion(&disk), disk.center, &mut residuals.empty);
-                let ends = edge.disks.map(|d| self.graph.disks[d as usize].radius);
-                let beyond = (radius - ends[0].max(ends[1])).max(ends[0].min(ends[1]) - radius);
-                note(beyond.max(0.0), disk.center, &mut residuals.monotone);
-            }
+            self.check_middle(edge, &mut found);
         }
-        if worst.0 <= self.residual_error() {
-            Ok(residuals)
-        } else {
-            Err(Mismatch::Residual { relative: worst.0, at: self.frame.leave(worst.1) })
+        let allowed = |r: Residual| match r {
+            Residual::Foot => self.foot_error(),
+            _ => self.residual_error(),
+        };
+        let within = |(r, (value, _)): &(Residual, (f64, Point))| *value <= allowed(*r);
+        // NaN is within nothing.
+        match found.worst.into_iter().find(|w| !within(w)) {
+            Some((_, (relative, at))) => Err(Mismatch::Residual { relative, at: self.frame.leave(at) }),
+            None => Ok(found.residuals()),
         }
+    }
+
+    /// Whether a disk touches a piece where it should.
+    fn check_touch(&self, touch: &Touch, found: &mut Findings) {
+        let Touch { site, foot, disk } = *touch;
+        let disk = &self.graph.disks[disk as usize];
+        let gap = (foot.point.distance(disk.center) - disk.radius).abs();
+        let off_site = self.sites[site as usize].distance(foot.point);
+        found.note(Residual::Touch, gap.max(off_site), disk.center);
+        found.note(
+            Residual::Foot,
+            (foot.point + foot.normal * disk.radius).distance(disk.center),
+            disk.center,
+        );
+    }
+
+    /// Whether the disk in the middle of an edge is empty, and as large as between its ends.
+    fn check_middle(&self, edge: &GraphEdge, found: &mut Findings) {
+        let pieces = edge.pieces.map(|p| self.graph.pieces[p as usize].piece);
+        let track = Track::of(&self.sites, &pieces[0]);
+        let probe = track.at(0.5);
+        let (radius, _) = track.reach(&self.sites, &pieces[1], &probe);
+        if radius.is_finite() {
+            let disk = UnitDisk { center: probe.center(radius), radius };
+            found.note(Residual::Empty, self.intrusion(&disk), disk.center);
+            let ends = edge.disks.map(|d| self.graph.disks[d as usize].radius);
+            let beyond = (radius - ends[0].max(ends[1])).max(ends[0].min(ends[1]) - radius);
+            found.note(Residual::Monotone, beyond.max(0.0), disk.center);
+        }
+    }
+
+    /// Largest distance of a center from the normal at a footpoint that is round-off: disks that
+    /// differ by `error` are one, and along a tie their feet lie apart by the root of twice that.
+    fn foot_error(&self) -> f64 {
+        (2.0 * self.graph.error).sqrt() + self.residual_error()
     }
 
     /// Largest residual that is round-off, in the unit frame: that of the numbers, and that of elements
@@ -94,6 +110,73 @@ impl Mat {
         best
     }
 
+    /// Where disks touch the boundary, found by walking around it: every piece must go on where the
+    /// one before ends, in place and in the disk that touches there; together they must be all sites,
+    /// and both sides of every edge.
+    fn touches(&self) -> Result<Vec<Touch>, Mismatch> {
+        let pieces = &self.graph.pieces;
+        let mut walk = Walk { seen: vec![false; pieces.len()], touches: Vec::new(), sites: 0, sides: 0 };
+        for first in 0..pieces.len() as u32 {
+            let BoundaryPiece { piece, next, edge } = pieces[first as usize];
+            // What stands for the way over a link is no piece. A walk begins at an edge, unless the
+            // pocket is one disk and has none.
+            let begins = next != NONE && (edge != NONE || self.graph.disks.len() == 1);
+            if begins && !walk.seen[first as usize] && self.walk_ring(first, &mut walk).is_none() {
+                return Err(Mismatch::Boundary { at: self.frame.leave(piece.from.point) });
+            }
+        }
+        if walk.sites == self.sites.len() && walk.sides == 2 * self.graph.edges.len() {
+            return Ok(walk.touches);
+        }
+        let missed = (0..pieces.len()).find(|&i| !walk.seen[i] && pieces[i].next != NONE);
+        let at = missed.map_or(Point::default(), |i| pieces[i].piece.from.point);
+        Err(Mismatch::Boundary { at: self.frame.leave(at) })
+    }
+
+    /// Walks around one ring; `None` where it does not go on as it should.
+    fn walk_ring(&self, first: u32, walk: &mut Walk) -> Option<()> {
+        let begin = self.disks_of(first).map_or(0, |ends| ends[0]);
+        let (mut at, mut disk) = (first, begin);
+        while !walk.seen[at as usize] {
+            walk.seen[at as usize] = true;
+            let BoundaryPiece { piece, next, edge } = self.graph.pieces[at as usize];
+            // A piece without an edge is the contact arc of one disk.
+            let ends = if edge == NONE { [disk; 2] } else { self.disks_of(at)? };
+            if ends[0] != disk {
+                return None;
+            }
+            disk = ends[1];
+            let touch = |foot, disk| Touch { site: piece.site, foot, disk };
+            walk.touches.extend([touch(piece.from, ends[0]), touch(piece.to, ends[1])]);
+            walk.sides += usize::from(edge != NONE);
+            walk.sites +=
+                usize::from(self.enters_site(&piece, &self.graph.pieces.get(next as usize)?.piece)?);
+            at = next;
+        }
+        (at == first && disk == begin).then_some(())
+    }
+
+    /// The disks at start and end of a piece that has an edge which knows it.
+    fn disks_of(&self, piece: u32) -> Option<[u32; 2]> {
+        let edge = self.graph.edges.get(self.graph.pieces[piece as usize].edge as usize)?;
+        let [a, b] = edge.disks;
+        match edge.pieces {
+            [p, _] if p == piece => Some([a, b]),
+            [_, p] if p == piece => Some([b, a]),
+            _ => None,
+        }
+    }
+
+    /// Whether a piece that follows another begins the next site; `None` if it does not follow.
+    fn enters_site(&self, piece: &Piece, after: &Piece) -> Option<bool> {
+        if piece.site == after.site && piece.to == after.from {
+            return Some(false);
+        }
+        let (here, there) = (&self.sites[piece.site as usize], &self.sites[after.site as usize]);
+        let joined = here.next == after.site && piece.to == here.end && after.from == there.start;
+        joined.then_some(true)
+    }
+
     fn check_topology(&self) -> Result<(), Mismatch> {
         let (vertices, edges) = (self.graph.disks.len(), self.graph.edges.len());
         let components = components(&self.graph);
@@ -113,6 +196,57 @@ fn components(graph: &Graph) -> usize {
     graph.disks.len() - joined
 }
 
+/// A disk and a place where it touches a site.
+struct Touch {
+    site: u32,
+    foot: Foot,
+    disk: u32,
+}
+
+/// What a walk around the boundary has met.
+struct Walk {
+    seen: Vec<bool>,
+    touches: Vec<Touch>,
+    sites: usize,
+    /// Pieces that lie along an edge.
+    sides: usize,
+}
+
+/// What is measured.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Residual {
+    Empty,
+    Touch,
+    Foot,
+    Monotone,
+}
+
+/// The largest value of each residual and the center of the disk it belongs to.
+struct Findings {
+    worst: [(Residual, (f64, Point)); 4],
+}
+
+impl Default for Findings {
+    fn default() -> Self {
+        let all = [Residual::Empty, Residual::Touch, Residual::Foot, Residual::Monotone];
+        Findings { worst: all.map(|r| (r, (0.0, Point::default()))) }
+    }
+}
+
+impl Findings {
+    fn note(&mut self, residual: Residual, value: f64, at: Point) {
+        let (_, worst) = &mut self.worst[residual as usize];
+        if value > worst.0 || value.is_nan() {
+            *worst = (value, at);
+        }
+    }
+
+    fn residuals(&self) -> Residuals {
+        let [empty, touch, foot, monotone] = self.worst.map(|(_, (value, _))| value);
+        Residuals { empty, touch, foot, monotone }
+    }
+}
+
 /// Largest residuals of an axis, relative to the size of the pocket.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Residuals {
@@ -120,6 +254,9 @@ pub struct Residuals {
     pub empty: f64,
     /// Distance of a disk from its footpoints, and of those from their sites.
     pub touch: f64,
+    /// Distance of a center from the normals at its footpoints, at the radius. Where contacts tie,
+    /// they may lie apart by the root of round-off.
+    pub foot: f64,
     /// How far a radius inside an edge leaves the range of its ends.
     pub monotone: f64,
 }

@@ -79,7 +79,7 @@ impl Lamination {
         let (visits, rows) = walk(all, &order, &contacts)?;
         let disks = Vec::new();
         let mut map = Lamination { visits, rows, disks, contacts, widest_union: (0.0, Point::default()) };
-        map.close(all, shots);
+        map.close(all, shots)?;
         Some(map)
     }
 }
@@ -279,8 +279,9 @@ impl Blocks {
 }
 
 impl Lamination {
-    /// Unites crossing chords, and makes disks and partners of what results.
-    fn close(&mut self, all: &Sites, shots: &[Shot]) {
+    /// Unites crossing chords, and makes disks and partners of what results; `None` when a chord leads
+    /// to another row, which only a missing link can do.
+    fn close(&mut self, all: &Sites, shots: &[Shot]) -> Option<()> {
         let n = all.sites.len() as u32;
         let disk_at = |joint: u32| {
             let (end, radius) = (&all.sites[joint as usize].end, shots[joint as usize].radius);
@@ -324,8 +325,12 @@ impl Lamination {
                     stack.pop();
                 }
             }
+            if !stack.is_empty() {
+                return None;
+            }
         }
         self.number_disks(all, &joints, &mut blocks, disk_at);
+        Some(())
     }
 
     fn note_union(&mut self, a: UnitDisk, b: UnitDisk) {

@@ -30,6 +30,8 @@ mod shot;
 mod site;
 mod sites;
 mod splice;
+#[cfg(test)]
+mod tests;
 mod touch;
 mod track;
 mod transform;

@@ -71,15 +71,13 @@ fn shoot(sites: &[Site], bvh: &Bvh, joint: u32, hints: &Hints) -> Shot {
     let mut best = curvature_limit(sites, joint);
     let try_site = |best: &mut Shot, i: u32| -> bool {
         let (radius, contact) = touch(Span::whole(&sites[i as usize]), &probe);
-        // A vertex and the ends of its neighbors are one place: the tangent contact is the one.
-        let better = radius < best.radius
-            || radius == best.radius && contact == Contact::Inside && best.contact != Contact::Inside;
-        if better {
-            let shrunk = radius < best.radius;
-            *best = Shot { radius, site: i, contact };
-            return shrunk;
+        let shot = Shot { radius, site: i, contact };
+        if !is_better(sites, &shot, best) {
+            return false;
         }
-        false
+        let shrunk = radius < best.radius;
+        *best = shot;
+        shrunk
     };
     for &hint in hints.0.iter().filter(|&&h| h != NONE) {
         try_site(&mut best, hint);
@@ -92,6 +90,35 @@ fn shoot(sites: &[Site], bvh: &Bvh, joint: u32, hints: &Hints) -> Shot {
     let disk = |radius: f64| SearchDisk { center: probe.center(radius), radius };
     bvh.search(disk(best.radius), |i| try_site(&mut best, i).then(|| disk(best.radius)));
     best
+}
+
+/// Round-off of a radius, relative to it: eight roundings on either side of a comparison.
+const RADIUS_ERROR: f64 = 16.0 * f64::EPSILON;
+
+/// Whether a shot holds the disk back more than another. Next to the end of a site, the radius to the
+/// contact and to the end differ by the square of their distance, which round-off hides long before
+/// that distance: there the tangent contact is the one, or contacts would be off by its root.
+fn is_better(sites: &[Site], shot: &Shot, best: &Shot) -> bool {
+    if best.site == NONE || best.contact == Contact::Whole {
+        return shot.radius < best.radius;
+    }
+    let (here, there) = (&sites[shot.site as usize], &sites[best.site as usize]);
+    let are_neighbors = here.vertices.iter().any(|v| there.vertices.contains(v));
+    let (own, other) = (precedence(here, shot.contact), precedence(there, best.contact));
+    if !are_neighbors || own == other {
+        return shot.radius < best.radius;
+    }
+    let error = RADIUS_ERROR * best.radius;
+    shot.radius < best.radius + if own > other { error } else { -error }
+}
+
+/// Which of two contacts in nearly one place tells where it really is.
+fn precedence(site: &Site, contact: Contact) -> u32 {
+    match contact {
+        Contact::Inside if !site.is_vertex => 2,
+        Contact::Inside => 1,
+        _ => 0,
+    }
 }
 
 /// The largest disk that the sites tangent to it at the joint allow.

@@ -56,6 +56,7 @@ impl Sites {
         for row in splice(pocket.loops(), frame) {
             let area: f64 = row.iter().map(|d| d.element.area(row[0].element.start)).sum();
             let mut parts: Vec<Part> = row.iter().flat_map(quarter_parts).collect();
+            lend_directions(&mut parts, frame.noise);
             all.blur = all.blur.max(share_normals(&mut parts, frame.noise));
             let hole = area < 0.0;
             if hole {
@@ -188,8 +189,11 @@ struct Part {
     end: Foot,
     curvature: f64,
     source: SiteRef,
-    /// Length of the chord of the element it is a part of, for the round-off of its normals.
+    /// Length of the chord that its normals come from, for their round-off: that of the element it is a
+    /// part of, or of a longer one that lent it its direction.
     chord: f64,
+    /// Angle that it may turn by unseen: near the round-off, an arc is drawn straight.
+    unseen: f64,
     /// Whether it is the last part of its element.
     last: bool,
 }
@@ -219,6 +223,7 @@ fn quarter_parts(drawn: &Drawn) -> Vec<Part> {
         curvature: e.curvature(),
         source,
         chord: e.chord().length(),
+        unseen: 0.0,
         last: i + 1 == count,
     };
     (0..count).map(part).collect()
@@ -242,6 +247,42 @@ fn split_at_extreme(parts: &mut Vec<Part>, direction: Vector) {
         let whole = parts[i];
         parts[i] = Part { end: foot, last: false, ..whole };
         parts.insert(i + 1, Part { start: foot, ..whole });
+    }
+}
+
+/// Turns elements near the round-off, which have no direction of their own, to that of a longer
+/// neighbor, one after the other. Their tilt would hide a corner between the neighbors: either joint
+/// looks smooth for what is known of the short element, but both together need not be.
+fn lend_directions(parts: &mut [Part], noise: f64) {
+    let n = parts.len();
+    let beside = |i: usize, forward: bool| if forward { (i + 1) % n } else { (i + n - 1) % n };
+    let tilt =
+        |parts: &[Part], from: usize, forward: bool| {
+            let to = beside(from, forward);
+            let (before, after) = if forward { (from, to) } else { (to, from) };
+            let angle = parts[before].end.normal.cross(parts[after].start.normal);
+            let is_whole = parts[to].last && parts[beside(to, false)].last;
+            let is_round_off =
+                joint_between(&parts[before], &parts[after], noise) == Joint::Smooth { same_circle: false };
+            let is_seen = angle.abs() > TANGENT_ROUNDINGS * noise * (1.0 + parts[from].chord.recip());
+            (is_whole && is_round_off && is_seen && parts[to].chord < parts[from].chord)
+                .then_some(if forward { -angle } else { angle })
+        };
+    let lends = |&i: &usize| tilt(parts, i, true).is_some() || tilt(parts, i, false).is_some();
+    let mut lenders: Vec<usize> = (0..n).filter(lends).collect();
+    lenders.sort_by(|&i, &j| parts[j].chord.total_cmp(&parts[i].chord));
+    for (lender, forward) in lenders.into_iter().flat_map(|i| [(i, true), (i, false)]) {
+        let mut from = lender;
+        while let Some(sine) = tilt(parts, from, forward) {
+            let to = beside(from, forward);
+            let cos = (1.0 - sine * sine).max(0.0).sqrt();
+            parts[to].start.normal = parts[to].start.normal.rotated(cos, sine);
+            parts[to].end.normal = parts[to].end.normal.rotated(cos, sine);
+            let bend = parts[from].curvature.abs() + parts[beside(to, forward)].curvature.abs();
+            parts[to].unseen = bend * parts[to].chord;
+            parts[to].chord = parts[from].chord;
+            from = to;
+        }
     }
 }
 
@@ -271,7 +312,7 @@ fn joint_between(part: &Part, after: &Part, noise: f64) -> Joint {
     let (n0, n1) = (part.end.normal, after.start.normal);
     let (turn, ahead) = (n0.cross(n1), n0.dot(n1));
     let error = TANGENT_ROUNDINGS * noise * (1.0 + part.chord.recip() + after.chord.recip());
-    if turn.abs() > error {
+    if turn.abs() > error + part.unseen + after.unseen {
         if turn > 0.0 { Joint::Convex } else { Joint::Cone }
     } else if ahead > 0.0 {
         Joint::Smooth { same_circle: false }

@@ -62,6 +62,12 @@ pub enum Mismatch {
         /// Islands of the pocket.
         islands: usize,
     },
+    /// The pieces of the boundary that the edges stand for are not the whole boundary in its order.
+    #[error("the axis does not go all along the boundary at ({}, {})", .at.x, .at.y)]
+    Boundary {
+        /// Where on the boundary.
+        at: Point,
+    },
     /// A disk does not touch what it should, or holds what it should not.
     #[error("a disk at ({}, {}) is off by {relative:e} of the size", .at.x, .at.y)]
     Residual {
@@ -131,7 +137,7 @@ fn laminate(pocket: &Pocket, frame: &Frame, direction: Vector) -> Result<Laminat
 }
 
 impl Mat {
-    fn build(frame: Frame, all: Sites, bvh: Bvh, map: Lamination, islands: usize) -> Mat {
+    pub(super) fn build(frame: Frame, all: Sites, bvh: Bvh, map: Lamination, islands: usize) -> Mat {
         let mut graph = Graph::of(&all.sites, map, DISK_ROUNDINGS * frame.noise);
         graph.contract();
         graph.split_at_extrema(&all.sites);

@@ -52,8 +52,12 @@ pub fn make(kind: &str, size: usize, seed: u64) -> Vec<ArcSpline> {
         "fingers" => vec![fingers(size, r)],
         "coast" => vec![coast(size, r)],
         "isles" => {
-            let mut loops = vec![radial(size / 2, &blob(r), point(0.0, 0.0), 1.3, false)];
-            loops.extend(isles(r, (size / 20).max(1), 10, false));
+            // From a few islands of many elements to many of two: 1000 circles at a size of 2000.
+            let per = [2, 6, 10, 40][(r.next() % 4) as usize];
+            let count = (if per == 2 { size / 2 } else { size / (2 * per) }).max(1);
+            let outer = size.saturating_sub(count * per).max(16);
+            let mut loops = vec![radial(outer, &blob(r), point(0.0, 0.0), 1.3, false)];
+            loops.extend(isles(r, count, per, false));
             loops
         }
         "hexagons" => {
@@ -190,6 +194,8 @@ fn isles(r: &mut Random, count: usize, per: usize, polygons: bool) -> Vec<ArcSpl
                     center + Vector::from_angle(-TAU * k as f64 / per as f64) * radius
                 };
                 polygon((0..per).map(|k| corner(k, radius * r.between(0.7, 1.0))).collect::<Vec<_>>())
+            } else if per == 2 {
+                ArcSpline::circle(center, radius).reversed()
             } else {
                 let waves = [(2.0, 0.1 * r.unit(), TAU * r.unit()), (3.0, 0.08 * r.unit(), TAU * r.unit())];
                 radial(per, &waves, center, radius, true)
@@ -240,11 +246,13 @@ fn spiral(size: usize, r: &mut Random) -> ArcSpline {
     ArcSpline { vertices, closed: true }
 }
 
-/// A plate with rows of equal islands, every number a little off by a few ulps.
+/// A plate with rows of equal islands, every number a little off: by nothing, by a few ulps, or by so
+/// much that what was a tie is one no longer.
 fn symmetric(size: usize, r: &mut Random) -> Vec<ArcSpline> {
     let m = (((size / 5) as f64).sqrt() as usize).max(1);
     let side = 20.0 * m as f64 + 10.0;
-    let mut near = |x: f64| x * (1.0 + (r.next() % 9) as f64 * f64::EPSILON - 4.0 * f64::EPSILON);
+    let ulps = [0.0, 4.0, 32.0, 1e3, 1e5, 1e8][(r.next() % 6) as usize];
+    let mut near = |x: f64| x * (1.0 + (ulps * r.between(-1.0, 1.0)).round() * f64::EPSILON);
     let mut loops = vec![polygon(
         [(0.0, 0.0), (side, 0.0), (side, side), (0.0, side)].map(|(x, y)| point(near(x), near(y))),
     )];
