@@ -77,6 +77,15 @@ impl<'a> Cutter<'a> {
         }
     }
 
+    /// Minutes that it takes to be over a place and from there down to `surface`.
+    pub fn minutes_over(&self, p: Point, surface: f64) -> f64 {
+        let Some(at) = self.at else { return f64::INFINITY };
+        let clearance = self.clearance();
+        let near = (surface + self.job.retract).min(clearance);
+        let rapid = (clearance - at.z) + at.xy().distance(p) + (clearance - near);
+        rapid / rapid_rate(self.job.units) + (near - surface) / self.job.plunge_feed
+    }
+
     /// Straight down to a height, at the plunge feed.
     pub fn plunge(&mut self, z: f64) {
         if let Some(at) = self.at {
@@ -182,6 +191,18 @@ mod tests {
         assert!((cutter.totals.rapid_length - (4.0 + 7.0)).abs() < 1e-12);
         let arc = (1.5 * PI).hypot(1.0);
         assert!((cutter.totals.cut_length - (2.0 + arc)).abs() < 1e-3);
+    }
+
+    #[test]
+    fn the_time_of_a_way_over_is_known_before_it_is_taken() {
+        let job = Job::new(Units::Mm, 2.0, 1.0);
+        let mut cutter = Cutter::new(&job);
+        cutter.over(point(1.0, 0.0), 0.0);
+        cutter.plunge(-1.0);
+        let (before, expected) = (cutter.totals.minutes, cutter.minutes_over(point(40.0, 3.0), -1.0));
+        cutter.over(point(40.0, 3.0), -1.0);
+        cutter.plunge(-1.0);
+        assert!((cutter.totals.minutes - before - expected).abs() < 1e-12);
     }
 
     #[test]

@@ -1,17 +1,20 @@
 //! The passes of one pocket in order, joined by links, each entered without harm.
 //!
-//! **Needs** the levels of a pocket and a judge of straight links.
+//! **Needs** the levels of a pocket, a judge of straight links, and the axis if links shall follow it.
 //! **Guarantees** that rapids run at the clearance or straight down into a place already cut that
-//! deep; that a link at depth joins neighbors, is as long as their distance, and stays clear of the
-//! wall by the tool radius and the stock; that a ramped stretch is cut again at depth.
+//! deep; that a link at depth joins neighbors and is as long as their distance, or follows the axis
+//! (`detour`) in less time than lifting the tool would take; that it stays clear of the wall by the
+//! tool radius and the stock; that a ramped stretch is cut again at depth.
 //! **Does not** shorten the way between pockets or between branches of a pocket.
 
 use super::course::Course;
 use super::cutter::Cutter;
+use super::detour::{Detours, Wish};
 use super::nest::{Nest, Pass, index};
 use super::{Direction, Entry, Job, Start, Warning};
 use crate::error::Error;
 use crate::geom::{ArcSpline, Bounds, Element, Point};
+use crate::mat::Mat;
 use crate::offset::Level;
 
 /// Largest number of moves of a path.
@@ -20,6 +23,10 @@ pub(super) const MAX_MOVES: u64 = 20_000_000;
 /// Round-off of a place of a level set, relative to the largest coordinate: the levels come from
 /// axis vertices, which are solved to about this accuracy.
 const LEVEL_ERROR: f64 = 16384.0 * f64::EPSILON;
+
+/// Farthest that a link along the axis may leave it, in tool radii: nothing is shaped by such a link,
+/// and its distance to the wall is judged for itself.
+const LINK_FLATNESS: f64 = 1.0 / 64.0;
 
 /// Whether the tool may run along a link with this much room around it.
 pub(super) type IsClear<'a> = dyn Fn(&Element, f64) -> bool + 'a;
@@ -37,6 +44,8 @@ struct Ground<'a> {
     levels: &'a [Level],
     nest: Nest,
     is_clear: &'a IsClear<'a>,
+    /// Links along the axis, if there is one.
+    detours: Option<Detours<'a>>,
     slack: f64,
     /// Passes cut at the height at hand.
     done: Vec<bool>,
@@ -44,6 +53,13 @@ struct Ground<'a> {
     last: Option<usize>,
     /// Where each pass should begin, if that is known before.
     begin: Vec<Option<Point>>,
+}
+
+/// A way down beside a pass, into a neighbor that is cut already, and straight over from there.
+struct Approach {
+    link: Element,
+    /// The pass, begun where the link ends.
+    begun: Course,
 }
 
 /// From where to where one height is cut.
@@ -59,8 +75,13 @@ impl<'a> Planner<'a> {
         Planner { job, cutter: Cutter::new(job), fallbacks: None }
     }
 
-    /// Cuts a pocket and answers the number of passes.
-    pub fn pocket(&mut self, levels: &[Level], is_clear: &IsClear) -> Result<usize, Error> {
+    /// Cuts a pocket and answers the number of passes. Without its axis, links are straight.
+    pub fn pocket(
+        &mut self,
+        levels: &[Level],
+        is_clear: &IsClear,
+        mat: Option<&Mat>,
+    ) -> Result<usize, Error> {
         let bounds = levels
             .iter()
             .take(1)
@@ -71,7 +92,8 @@ impl<'a> Planner<'a> {
         let order = nest.order(self.job.start);
         let (done, begin) = (vec![false; order.len()], vec![None; order.len()]);
         let last = self.last_passes(levels, &nest);
-        let mut ground = Ground { levels, nest, is_clear, slack, done, last: None, begin };
+        let detours = mat.map(|mat| Detours::new(mat, levels, slack));
+        let mut ground = Ground { levels, nest, is_clear, detours, slack, done, last: None, begin };
         let needed = order.into_iter().filter(|&p| !ground.is_covered(p));
         let (wall, rough): (Vec<usize>, Vec<usize>) = needed.partition(|&p| last[p]);
         if self.job.start == Start::Outside {
@@ -138,14 +160,9 @@ impl<'a> Planner<'a> {
             return Ok(());
         };
         self.afford(course.elements.len() as u64)?;
-        let linked = self.link(ground, pass, &course);
-        let course = match linked.or_else(|| self.door(ground, pass, &course, height)) {
-            Some(course) => course,
-            None => {
-                let place = ground.begin[pass].or_else(|| ground.toward(pass, next));
-                let place = course.nearest(place.unwrap_or_else(|| course.calm_place()));
-                self.enter(course.begun_at(place, ground.slack), height)?
-            }
+        let course = match self.link(ground, pass, &course) {
+            Some(linked) => linked,
+            None => self.approach(ground, (pass, next), course, height)?,
         };
         for e in &course.elements {
             self.cutter.cut(e);
@@ -187,8 +204,57 @@ impl<'a> Planner<'a> {
         })
     }
 
-    /// Down beside the pass, into a neighbor that is already cut, and straight over from there.
-    fn door(&mut self, ground: &Ground, pass: usize, course: &Course, height: Height) -> Option<Course> {
+    /// To a pass that no straight link leads to: beside what is cut along the axis or over it, else
+    /// down into full stock.
+    fn approach(
+        &mut self,
+        ground: &mut Ground,
+        (pass, next): (usize, Option<usize>),
+        course: Course,
+        height: Height,
+    ) -> Result<Course, Error> {
+        let Some(Approach { link, begun }) = self.door(ground, pass, &course) else {
+            let place = ground.begin[pass].or_else(|| ground.toward(pass, next));
+            let place = course.nearest(place.unwrap_or_else(|| course.calm_place()));
+            return self.enter(course.begun_at(place, ground.slack), height);
+        };
+        let minutes = self.cutter.minutes_over(link.start, height.z) + link.length() / self.job.feed;
+        if let Some(detoured) = self.detour(ground, pass, course, minutes * self.job.feed) {
+            return Ok(detoured);
+        }
+        self.cutter.over(link.start, height.z);
+        self.cutter.plunge(height.z);
+        self.cutter.cut(&link);
+        Ok(begun)
+    }
+
+    /// Along the axis to the pass, if that is shorter than a length.
+    fn detour(
+        &mut self,
+        ground: &mut Ground,
+        pass: usize,
+        course: Course,
+        shorter_than: f64,
+    ) -> Option<Course> {
+        let flat = LINK_FLATNESS * self.job.radius();
+        let places = ground.detour(self.cutter.at()?, pass, shorter_than, flat)?;
+        let end = *places.last()?;
+        let begun = course.nearest(end);
+        let begun = course.begun_at(begun, ground.slack);
+        if begun.start.distance(end) > ground.slack {
+            return None;
+        }
+        let links = chain(&places, begun.start, ground.slack);
+        let clear = |link: &Element| (ground.is_clear)(link, self.job.wall_distance());
+        if !links.iter().all(clear) || self.afford(links.len() as u64).is_err() {
+            return None;
+        }
+        links.iter().for_each(|link| self.cutter.cut(link));
+        Some(begun)
+    }
+
+    /// Where to get down beside the pass.
+    fn door(&self, ground: &Ground, pass: usize, course: &Course) -> Option<Approach> {
         let here = self.cutter.at()?;
         let inner = ground.nest.inner[pass].iter().map(|d| (d, true));
         let outer = ground.nest.outer[pass].iter().map(|d| (d, false));
@@ -203,12 +269,7 @@ impl<'a> Planner<'a> {
                 Course::along(ground.spline(door.pass), false)?.nearest(begun.start).point
             };
             let link = Element::segment(from, begun.start);
-            self.may_link(ground, &link, pass, door.pass).then(|| {
-                self.cutter.over(from, height.z);
-                self.cutter.plunge(height.z);
-                self.cutter.cut(&link);
-                begun
-            })
+            self.may_link(ground, &link, pass, door.pass).then_some(Approach { link, begun })
         })
     }
 
@@ -292,6 +353,12 @@ impl Ground<'_> {
         }
     }
 
+    /// The places of a link along the axis from the end of the last pass to another one.
+    fn detour(&mut self, from: Point, to: usize, shorter_than: f64, flat: f64) -> Option<Vec<Point>> {
+        let (nest, done, last) = (&self.nest, &self.done[..], self.last?);
+        self.detours.as_mut()?.find(&Wish { nest, done, from, last, to, shorter_than, flat })
+    }
+
     /// Difference of the distances of two passes from the wall.
     fn apart(&self, a: usize, b: usize) -> f64 {
         let distance = |pass: usize| self.levels[self.nest.passes[pass].level].distance;
@@ -303,6 +370,21 @@ impl Ground<'_> {
         let doors = self.nest.outer[pass].iter().chain(&self.nest.inner[pass]);
         doors.into_iter().find(|d| Some(d.pass) == next).map(|d| d.at)
     }
+}
+
+/// Segments through places, the last of them moved to `end`; none as short as round-off but the last.
+fn chain(places: &[Point], end: Point, slack: f64) -> Vec<Element> {
+    let Some((&first, rest)) = places.split_first() else { return Vec::new() };
+    let mut links = Vec::with_capacity(rest.len());
+    let mut at = first;
+    for &p in rest.iter().take(rest.len().saturating_sub(1)) {
+        if at.distance(p) > slack {
+            links.push(Element::segment(at, p));
+            at = p;
+        }
+    }
+    links.push(Element::segment(at, end));
+    links
 }
 
 /// An open course run to and fro, at least as long as `run`, so that it ends where the course

@@ -83,7 +83,7 @@ mod tests {
     #[test]
     fn numbers_have_a_point_and_read_back_to_the_last_bit() {
         let mut values = vec![0.0, -0.0, 1.0, 1e22, 5e-324, f64::MAX, -1e-7, 0.1 + 0.2, 1.0 / 3.0];
-        values.extend((0..2000).map(|i| f64::from(i).exp2().sin() * (f64::from(i % 90) - 45.0).exp2()));
+        values.extend((0..1000).map(|i| f64::from(i).exp2().sin() * (f64::from(i % 90) - 45.0).exp2()));
         for value in values {
             let text = number(value);
             assert!(text.contains('.'), "{text}");
