@@ -144,7 +144,7 @@ impl<'a> Planner<'a> {
 
     fn passes(&mut self, ground: &mut Ground, order: &[usize], height: Height) -> Result<(), Error> {
         for (i, &pass) in order.iter().enumerate() {
-            self.pass(ground, pass, order.get(i + 1).copied(), height)?;
+            self.pass(ground, pass, &order[i + 1..], height)?;
         }
         Ok(())
     }
@@ -153,7 +153,7 @@ impl<'a> Planner<'a> {
         &mut self,
         ground: &mut Ground,
         pass: usize,
-        next: Option<usize>,
+        rest: &[usize],
         height: Height,
     ) -> Result<(), Error> {
         let Some(course) = Course::along(ground.spline(pass), self.is_backwards(ground, pass)) else {
@@ -162,7 +162,7 @@ impl<'a> Planner<'a> {
         self.afford(course.elements.len() as u64)?;
         let course = match self.link(ground, pass, &course) {
             Some(linked) => linked,
-            None => self.approach(ground, (pass, next), course, height)?,
+            None => self.approach(ground, (pass, rest), course, height)?,
         };
         for e in &course.elements {
             self.cutter.cut(e);
@@ -209,17 +209,17 @@ impl<'a> Planner<'a> {
     fn approach(
         &mut self,
         ground: &mut Ground,
-        (pass, next): (usize, Option<usize>),
+        (pass, rest): (usize, &[usize]),
         course: Course,
         height: Height,
     ) -> Result<Course, Error> {
         let Some(Approach { link, begun }) = self.door(ground, pass, &course) else {
-            let place = ground.begin[pass].or_else(|| ground.toward(pass, next));
+            let place = ground.begin[pass].or_else(|| ground.toward(pass, rest.first().copied()));
             let place = course.nearest(place.unwrap_or_else(|| course.calm_place()));
             return self.enter(course.begun_at(place, ground.slack), height);
         };
         let minutes = self.cutter.minutes_over(link.start, height.z) + link.length() / self.job.feed;
-        if let Some(detoured) = self.detour(ground, pass, course, minutes * self.job.feed) {
+        if let Some(detoured) = self.detour(ground, (pass, rest), course, minutes * self.job.feed) {
             return Ok(detoured);
         }
         self.cutter.over(link.start, height.z);
@@ -232,7 +232,7 @@ impl<'a> Planner<'a> {
     fn detour(
         &mut self,
         ground: &mut Ground,
-        pass: usize,
+        (pass, rest): (usize, &[usize]),
         course: Course,
         shorter_than: f64,
     ) -> Option<Course> {
@@ -245,6 +245,10 @@ impl<'a> Planner<'a> {
             return None;
         }
         let links = chain(&places, begun.start, ground.slack);
+        let length: f64 = links.iter().map(Element::length).sum();
+        if length + ground.farther_on(begun.start, pass, rest, shorter_than) >= shorter_than {
+            return None;
+        }
         let clear = |link: &Element| (ground.is_clear)(link, self.job.wall_distance());
         if !links.iter().all(clear) || self.afford(links.len() as u64).is_err() {
             return None;
@@ -357,6 +361,22 @@ impl Ground<'_> {
     fn detour(&mut self, from: Point, to: usize, shorter_than: f64, flat: f64) -> Option<Vec<Point>> {
         let (nest, done, last) = (&self.nest, &self.done[..], self.last?);
         self.detours.as_mut()?.find(&Wish { nest, done, from, last, to, shorter_than, flat })
+    }
+
+    /// How much longer than the step, in all, the links of the chain inward from a pass become when it
+    /// begins here and not where it was planned to; counted no farther than a limit.
+    fn farther_on(&self, begin: Point, pass: usize, rest: &[usize], limit: f64) -> f64 {
+        let inward = |from: usize, to: usize| self.nest.inner[from].iter().any(|d| d.pass == to);
+        let Some(&next) = rest.first().filter(|&&next| inward(pass, next)) else { return 0.0 };
+        let Some(course) = Course::along(self.spline(next), false) else { return 0.0 };
+        let each = course.nearest(begin).distance - self.apart(pass, next);
+        if each <= self.slack {
+            return 0.0;
+        }
+        // Later links turn out about as long as the first, as all lead along the axis.
+        let most = (limit / each).ceil() as usize;
+        let chain = rest.windows(2).take(most).take_while(|w| inward(w[0], w[1])).count() + 1;
+        each * chain as f64
     }
 
     /// Difference of the distances of two passes from the wall.
