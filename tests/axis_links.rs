@@ -20,7 +20,7 @@ fn ring() -> Pocket {
     let wall = |r: f64| {
         let vertex = |i: u32| {
             let (sin, cos) = (f64::from(i) / 16.0 * std::f64::consts::TAU).sin_cos();
-            (r * cos, r * sin, if i % 2 == 0 { 0.45 } else { -0.25 })
+            (r * cos, r * sin, [0.45, -0.25][i as usize % 2])
         };
         ArcSpline::closed((0..16).map(vertex))
     };

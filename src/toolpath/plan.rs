@@ -62,6 +62,15 @@ struct Approach {
     begun: Course,
 }
 
+/// Lengths of cut that take as long as what a link along the axis stands for.
+#[derive(Clone, Copy)]
+struct Limits {
+    /// The way over to the pass.
+    length: f64,
+    /// Lifting the tool and coming down again.
+    lift: f64,
+}
+
 /// From where to where one height is cut.
 #[derive(Clone, Copy)]
 struct Height {
@@ -218,8 +227,10 @@ impl<'a> Planner<'a> {
             let place = course.nearest(place.unwrap_or_else(|| course.calm_place()));
             return self.enter(course.begun_at(place, ground.slack), height);
         };
-        let minutes = self.cutter.minutes_over(link.start, height.z) + link.length() / self.job.feed;
-        if let Some(detoured) = self.detour(ground, (pass, rest), course, minutes * self.job.feed) {
+        let as_long = |p: Point| self.cutter.minutes_over(p, height.z) * self.job.feed;
+        let lift = self.cutter.at().map_or(0.0, as_long);
+        let limits = Limits { length: as_long(link.start) + link.length(), lift };
+        if let Some(detoured) = self.detour(ground, (pass, rest), course, limits) {
             return Ok(detoured);
         }
         self.cutter.over(link.start, height.z);
@@ -228,16 +239,16 @@ impl<'a> Planner<'a> {
         Ok(begun)
     }
 
-    /// Along the axis to the pass, if that is shorter than a length.
+    /// Along the axis to the pass, if that takes less time than the way over.
     fn detour(
         &mut self,
         ground: &mut Ground,
         (pass, rest): (usize, &[usize]),
         course: Course,
-        shorter_than: f64,
+        limits: Limits,
     ) -> Option<Course> {
         let flat = LINK_FLATNESS * self.job.radius();
-        let places = ground.detour(self.cutter.at()?, pass, shorter_than, flat)?;
+        let places = ground.detour(self.cutter.at()?, pass, limits.length, flat)?;
         let end = *places.last()?;
         let begun = course.nearest(end);
         let begun = course.begun_at(begun, ground.slack);
@@ -246,7 +257,9 @@ impl<'a> Planner<'a> {
         }
         let links = chain(&places, begun.start, ground.slack);
         let length: f64 = links.iter().map(Element::length).sum();
-        if length + ground.farther_on(begun.start, pass, rest, shorter_than) >= shorter_than {
+        // Where the passes that follow would rather be lifted to, nothing is gained.
+        let farther = ground.farther_on(begun.start, pass, rest, limits.lift);
+        if farther >= limits.lift || length + farther >= limits.length {
             return None;
         }
         let clear = |link: &Element| (ground.is_clear)(link, self.job.wall_distance());
