@@ -15,6 +15,7 @@
 //! up, across, and down into a neighbor; what has no neighbor that is cut is entered by a ramp into
 //! the stock (`plan`).
 
+mod approach;
 mod course;
 mod cutter;
 mod detour;

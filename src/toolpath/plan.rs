@@ -9,7 +9,7 @@
 
 use super::course::Course;
 use super::cutter::Cutter;
-use super::detour::{Detours, Wish};
+use super::detour::Detours;
 use super::nest::{Nest, Pass, index};
 use super::{Direction, Entry, Job, Start, Warning};
 use crate::error::Error;
@@ -24,58 +24,38 @@ pub(super) const MAX_MOVES: u64 = 20_000_000;
 /// axis vertices, which are solved to about this accuracy.
 const LEVEL_ERROR: f64 = 16384.0 * f64::EPSILON;
 
-/// Farthest that a link along the axis may leave it, in tool radii: nothing is shaped by such a link,
-/// and its distance to the wall is judged for itself.
-const LINK_FLATNESS: f64 = 1.0 / 64.0;
-
 /// Whether the tool may run along a link with this much room around it.
 pub(super) type IsClear<'a> = dyn Fn(&Element, f64) -> bool + 'a;
 
 /// Plans pockets one after the other.
 pub(super) struct Planner<'a> {
-    job: &'a Job,
+    pub job: &'a Job,
     pub cutter: Cutter<'a>,
     /// Ramps and plunges that stand for another kind of entry, and the first of these plunges.
     fallbacks: Option<(usize, usize, Option<Point>)>,
 }
 
 /// What is known of the pocket at hand.
-struct Ground<'a> {
+pub(super) struct Ground<'a> {
     levels: &'a [Level],
-    nest: Nest,
-    is_clear: &'a IsClear<'a>,
+    pub nest: Nest,
+    pub is_clear: &'a IsClear<'a>,
     /// Links along the axis, if there is one.
-    detours: Option<Detours<'a>>,
-    slack: f64,
+    pub detours: Option<Detours<'a>>,
+    pub slack: f64,
     /// Passes cut at the height at hand.
-    done: Vec<bool>,
+    pub done: Vec<bool>,
     /// The pass in whose end the tool stands.
-    last: Option<usize>,
+    pub last: Option<usize>,
     /// Where each pass should begin, if that is known before.
-    begin: Vec<Option<Point>>,
-}
-
-/// A way down beside a pass, into a neighbor that is cut already, and straight over from there.
-struct Approach {
-    link: Element,
-    /// The pass, begun where the link ends.
-    begun: Course,
-}
-
-/// Lengths of cut that take as long as what a link along the axis stands for.
-#[derive(Clone, Copy)]
-struct Limits {
-    /// The way over to the pass.
-    length: f64,
-    /// Lifting the tool and coming down again.
-    lift: f64,
+    pub begin: Vec<Option<Point>>,
 }
 
 /// From where to where one height is cut.
 #[derive(Clone, Copy)]
-struct Height {
-    surface: f64,
-    z: f64,
+pub(super) struct Height {
+    pub surface: f64,
+    pub z: f64,
 }
 
 impl<'a> Planner<'a> {
@@ -181,7 +161,7 @@ impl<'a> Planner<'a> {
         Ok(())
     }
 
-    fn afford(&self, more: u64) -> Result<(), Error> {
+    pub fn afford(&self, more: u64) -> Result<(), Error> {
         let needed = self.cutter.moves.len() as u64 + more;
         if needed > MAX_MOVES {
             return Err(Error::Effort { what: "the path in moves", needed, limit: MAX_MOVES });
@@ -213,90 +193,13 @@ impl<'a> Planner<'a> {
         })
     }
 
-    /// To a pass that no straight link leads to: beside what is cut along the axis or over it, else
-    /// down into full stock.
-    fn approach(
-        &mut self,
-        ground: &mut Ground,
-        (pass, rest): (usize, &[usize]),
-        course: Course,
-        height: Height,
-    ) -> Result<Course, Error> {
-        let Some(Approach { link, begun }) = self.door(ground, pass, &course) else {
-            let place = ground.begin[pass].or_else(|| ground.toward(pass, rest.first().copied()));
-            let place = course.nearest(place.unwrap_or_else(|| course.calm_place()));
-            return self.enter(course.begun_at(place, ground.slack), height);
-        };
-        let as_long = |p: Point| self.cutter.minutes_over(p, height.z) * self.job.feed;
-        let lift = self.cutter.at().map_or(0.0, as_long);
-        let limits = Limits { length: as_long(link.start) + link.length(), lift };
-        if let Some(detoured) = self.detour(ground, (pass, rest), course, limits) {
-            return Ok(detoured);
-        }
-        self.cutter.over(link.start, height.z);
-        self.cutter.plunge(height.z);
-        self.cutter.cut(&link);
-        Ok(begun)
-    }
-
-    /// Along the axis to the pass, if that takes less time than the way over.
-    fn detour(
-        &mut self,
-        ground: &mut Ground,
-        (pass, rest): (usize, &[usize]),
-        course: Course,
-        limits: Limits,
-    ) -> Option<Course> {
-        let flat = LINK_FLATNESS * self.job.radius();
-        let places = ground.detour(self.cutter.at()?, pass, limits.length, flat)?;
-        let end = *places.last()?;
-        let begun = course.nearest(end);
-        let begun = course.begun_at(begun, ground.slack);
-        if begun.start.distance(end) > ground.slack {
-            return None;
-        }
-        let links = chain(&places, begun.start, ground.slack);
-        let length: f64 = links.iter().map(Element::length).sum();
-        // Where the passes that follow would rather be lifted to, nothing is gained.
-        let farther = ground.farther_on(begun.start, pass, rest, limits.lift);
-        if farther >= limits.lift || length + farther >= limits.length {
-            return None;
-        }
-        let clear = |link: &Element| (ground.is_clear)(link, self.job.wall_distance());
-        if !links.iter().all(clear) || self.afford(links.len() as u64).is_err() {
-            return None;
-        }
-        links.iter().for_each(|link| self.cutter.cut(link));
-        Some(begun)
-    }
-
-    /// Where to get down beside the pass.
-    fn door(&self, ground: &Ground, pass: usize, course: &Course) -> Option<Approach> {
-        let here = self.cutter.at()?;
-        let inner = ground.nest.inner[pass].iter().map(|d| (d, true));
-        let outer = ground.nest.outer[pass].iter().map(|d| (d, false));
-        let open = inner.chain(outer).filter(|(d, _)| ground.done[d.pass]);
-        let (door, inside) =
-            open.min_by(|(a, _), (b, _)| a.at.distance(here).total_cmp(&b.at.distance(here)))?;
-        [ground.begin[pass], Some(door.at)].into_iter().flatten().find_map(|place| {
-            let begun = course.clone().begun_at(course.nearest(place), ground.slack);
-            let from = if inside {
-                door.at
-            } else {
-                Course::along(ground.spline(door.pass), false)?.nearest(begun.start).point
-            };
-            let link = Element::segment(from, begun.start);
-            self.may_link(ground, &link, pass, door.pass).then_some(Approach { link, begun })
-        })
-    }
-
-    fn may_link(&self, ground: &Ground, link: &Element, a: usize, b: usize) -> bool {
+    pub fn may_link(&self, ground: &Ground, link: &Element, a: usize, b: usize) -> bool {
         link.length() <= ground.apart(a, b) + ground.slack
             && (ground.is_clear)(link, self.job.wall_distance())
     }
 
     /// Down into full stock: along the pass where it is long enough, else straight.
-    fn enter(&mut self, course: Course, height: Height) -> Result<Course, Error> {
+    pub fn enter(&mut self, course: Course, height: Height) -> Result<Course, Error> {
         let length = course.length();
         if self.job.entry == Entry::Plunge || length <= self.job.radius() {
             self.fell_back(Entry::Plunge, course.start);
@@ -337,7 +240,7 @@ impl<'a> Planner<'a> {
 }
 
 impl Ground<'_> {
-    fn spline(&self, pass: usize) -> &ArcSpline {
+    pub fn spline(&self, pass: usize) -> &ArcSpline {
         let Pass { level, index } = self.nest.passes[pass];
         let level = &self.levels[level];
         level.loops.get(index).unwrap_or_else(|| &level.ridges[index - level.loops.len()])
@@ -370,54 +273,17 @@ impl Ground<'_> {
         }
     }
 
-    /// The places of a link along the axis from the end of the last pass to another one.
-    fn detour(&mut self, from: Point, to: usize, shorter_than: f64, flat: f64) -> Option<Vec<Point>> {
-        let (nest, done, last) = (&self.nest, &self.done[..], self.last?);
-        self.detours.as_mut()?.find(&Wish { nest, done, from, last, to, shorter_than, flat })
-    }
-
-    /// How much longer than the step, in all, the links of the chain inward from a pass become when it
-    /// begins here and not where it was planned to; counted no farther than a limit.
-    fn farther_on(&self, begin: Point, pass: usize, rest: &[usize], limit: f64) -> f64 {
-        let inward = |from: usize, to: usize| self.nest.inner[from].iter().any(|d| d.pass == to);
-        let Some(&next) = rest.first().filter(|&&next| inward(pass, next)) else { return 0.0 };
-        let Some(course) = Course::along(self.spline(next), false) else { return 0.0 };
-        let each = course.nearest(begin).distance - self.apart(pass, next);
-        if each <= self.slack {
-            return 0.0;
-        }
-        // Later links turn out about as long as the first, as all lead along the axis.
-        let most = (limit / each).ceil() as usize;
-        let chain = rest.windows(2).take(most).take_while(|w| inward(w[0], w[1])).count() + 1;
-        each * chain as f64
-    }
-
     /// Difference of the distances of two passes from the wall.
-    fn apart(&self, a: usize, b: usize) -> f64 {
+    pub fn apart(&self, a: usize, b: usize) -> f64 {
         let distance = |pass: usize| self.levels[self.nest.passes[pass].level].distance;
         (distance(a) - distance(b)).abs()
     }
 
     /// A place of the pass from which the next one lies straight across, if that is a neighbor.
-    fn toward(&self, pass: usize, next: Option<usize>) -> Option<Point> {
+    pub fn toward(&self, pass: usize, next: Option<usize>) -> Option<Point> {
         let doors = self.nest.outer[pass].iter().chain(&self.nest.inner[pass]);
         doors.into_iter().find(|d| Some(d.pass) == next).map(|d| d.at)
     }
-}
-
-/// Segments through places, the last of them moved to `end`; none as short as round-off but the last.
-fn chain(places: &[Point], end: Point, slack: f64) -> Vec<Element> {
-    let Some((&first, rest)) = places.split_first() else { return Vec::new() };
-    let mut links = Vec::with_capacity(rest.len());
-    let mut at = first;
-    for &p in rest.iter().take(rest.len().saturating_sub(1)) {
-        if at.distance(p) > slack {
-            links.push(Element::segment(at, p));
-            at = p;
-        }
-    }
-    links.push(Element::segment(at, end));
-    links
 }
 
 /// An open course run to and fro, at least as long as `run`, so that it ends where the course
