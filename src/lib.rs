@@ -88,7 +88,7 @@
 //!
 //! # Features
 //!
-//! `cli` builds the binary `pocket`, `dxf` reads drawings; both are on by default. `verify` is the
+//! `cli` builds the binary `pocket`, `dxf` reads and writes drawings; both are on by default. `verify` is the
 //! place of a second judge of offsets; the first, [`verify`](mod@verify), is always there.
 
 pub mod boundary;

@@ -97,7 +97,7 @@ fn a_drawing_becomes_a_program() {
 #[test]
 fn one_run_writes_every_form_that_is_asked_for() {
     let desk = Desk::new(&plate());
-    let outputs = ["-o", "part.nc", "-o", "part.json", "-o", "part.svg"];
+    let outputs = ["-o", "part.nc", "-o", "part.json", "-o", "part.svg", "-o", "out.DXF"];
     desk.pocket(&["part.dxf", "--tool", "6", "--step", "40%", "--depth", "5", "--step-down", "1.5"])
         .args(outputs)
         .assert()
@@ -110,6 +110,22 @@ fn one_run_writes_every_form_that_is_asked_for() {
     assert!(distances.windows(2).all(|d| (d[1] - d[0] - 2.4).abs() < 1e-12));
     assert!(desk.read("part.svg").contains("<svg"));
     assert!(desk.read("part.nc").contains("Z-5"));
+    let drawing = desk.read("out.DXF");
+    assert!(["BOUNDARY", "MEDIAL_AXIS", "OFFSETS", "TOOLPATH"].iter().all(|layer| drawing.contains(layer)));
+}
+
+#[test]
+fn a_written_drawing_is_read_again_by_its_layers() {
+    let desk = Desk::new(&plate());
+    desk.pocket(&["part.dxf", "--tool", "6", "-o", "out.dxf", "-o", "part.json"]).assert().success();
+    desk.pocket(&["out.dxf", "--layer", "BOUNDARY", "--tool", "6", "-o", "again.json"]).assert().success();
+    let boundary = |name: &str| {
+        let document: serde_json::Value = serde_json::from_str(&desk.read(name)).unwrap();
+        document["pockets"][0]["boundary"].clone()
+    };
+    assert_eq!(boundary("again.json"), boundary("part.json"));
+    let onto_itself = desk.pocket(&["out.dxf", "--tool", "6", "-o", "./out.dxf"]).assert().code(2);
+    onto_itself.stderr(contains("is the drawing itself"));
 }
 
 #[test]

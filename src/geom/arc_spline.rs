@@ -71,7 +71,8 @@ impl ArcSpline {
             .map(|i| {
                 let at = (first + n - i) % n.max(1);
                 let before = (at + n - 1) % n;
-                Vertex { point: self.vertices[at].point, bulge: -self.vertices[before].bulge }
+                // Not `-bulge`, so that the bulge of a segment stays +0.
+                Vertex { point: self.vertices[at].point, bulge: 0.0 - self.vertices[before].bulge }
             })
             .collect();
         ArcSpline { vertices, closed: self.closed }
@@ -135,6 +136,7 @@ mod tests {
         assert_eq!(r.vertices[0].point, d.vertices[0].point);
         assert!((d.area() + r.area()).abs() < 1e-15 && (d.length() - r.length()).abs() < 1e-14);
         assert_eq!(r.reversed(), d);
+        assert!(r.vertices.iter().all(|v| v.bulge != 0.0 || v.bulge.is_sign_positive()));
         let o = ArcSpline::open([(0.0, 0.0, 0.5), (1.0, 0.0, 0.0), (1.0, 1.0, 0.0)]);
         assert_eq!(o.reversed().vertices[1].bulge, -0.5);
         assert_eq!(o.reversed().vertices[0].point, point(1.0, 1.0));

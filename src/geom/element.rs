@@ -151,7 +151,7 @@ impl Element {
 
     /// The same curve run backwards.
     pub fn reversed(&self) -> Element {
-        Element { start: self.end, end: self.start, bulge: -self.bulge }
+        Element { start: self.end, end: self.start, bulge: 0.0 - self.bulge }
     }
 
     /// Parameter of the place on the full circle or line nearest to `p`: in 0..=1 on the element.

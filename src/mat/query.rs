@@ -27,6 +27,20 @@ impl Mat {
         self.frame.length_out(self.unit_distance(c, far))
     }
 
+    /// A site nearest to a place of the unit frame; where several are, any of them.
+    pub(crate) fn nearest_site(&self, c: Point) -> u32 {
+        let mut nearest = (f64::INFINITY, 0);
+        let everything = SearchDisk { center: c, radius: 2.0 + c.to_vector().length() };
+        self.bvh.search(everything, |i| {
+            let d = self.sites[i as usize].distance(c);
+            (d < nearest.0).then(|| {
+                nearest = (d, i);
+                SearchDisk { center: c, radius: d }
+            })
+        });
+        nearest.1
+    }
+
     /// Whether a disk of this radius can be moved along a path (that begins inside) without leaving
     /// the pocket by more than round-off.
     pub fn is_clear(&self, path: &Element, radius: f64) -> bool {

@@ -162,7 +162,11 @@ impl Mat {
             let (points, weight) = bezier(&self.sites, &self.graph, e);
             let source = |p: u32| self.sites[self.graph.pieces[p as usize].piece.site as usize].source;
             let [right, left] = e.pieces.map(source);
-            let points = points.map(|p| self.frame.leave(p));
+            let straight = points[1] == points[0].midpoint(points[2]);
+            let mut points = points.map(|p| self.frame.leave(p));
+            if straight {
+                points[1] = points[0].midpoint(points[2]);
+            }
             AxisEdge { from: e.disks[0], to: e.disks[1], sites: [left, right], points, weight }
         };
         self.graph.edges.iter().map(edge).collect()

@@ -75,3 +75,10 @@ pub struct AxisEdge {
     /// Middle weight.
     pub weight: f64,
 }
+
+impl AxisEdge {
+    /// Whether it is a straight segment: its control point is the middle of its ends, to the last bit.
+    pub fn is_straight(&self) -> bool {
+        self.points[1] == self.points[0].midpoint(self.points[2])
+    }
+}

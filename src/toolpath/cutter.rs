@@ -19,15 +19,24 @@ pub struct Totals {
     pub arcs: usize,
     /// Straight feed moves.
     pub lines: usize,
-    /// Time without acceleration, with rapids at 5000 mm (200 inch) per minute.
+    /// Time, with rapids at 5000 mm (200 inch) per minute that start and stop at 500 mm/s2 (20 in/s2),
+    /// and feed moves without acceleration.
     pub minutes: f64,
 }
 
-/// Rate of rapids that the estimate of time assumes, in units per minute.
-fn rapid_rate(units: Units) -> f64 {
-    match units {
-        Units::Mm => 5000.0,
-        Units::Inch => 200.0,
+/// Minutes of a rapid, which starts and stops, as the estimate of time assumes: at most 5000 mm (200
+/// inch) per minute and 500 mm/s2 (20 in/s2), a light machine. The decision between a link and a way
+/// over depends on it.
+fn rapid_minutes(length: f64, units: Units) -> f64 {
+    const SECONDS: f64 = 60.0;
+    let (rate, acceleration) = match units {
+        Units::Mm => (5000.0, 500.0 * SECONDS * SECONDS),
+        Units::Inch => (200.0, 20.0 * SECONDS * SECONDS),
+    };
+    if length * acceleration < rate * rate {
+        2.0 * (length / acceleration).sqrt()
+    } else {
+        length / rate + rate / acceleration
     }
 }
 
@@ -77,6 +86,16 @@ impl<'a> Cutter<'a> {
         }
     }
 
+    /// Minutes that it takes to be over a place and from there down to `surface`.
+    pub fn minutes_over(&self, p: Point, surface: f64) -> f64 {
+        let Some(at) = self.at else { return f64::INFINITY };
+        let clearance = self.clearance();
+        let near = (surface + self.job.retract).min(clearance);
+        let rapids = [clearance - at.z, at.xy().distance(p), clearance - near];
+        let rapids: f64 = rapids.into_iter().map(|length| rapid_minutes(length, self.job.units)).sum();
+        rapids + (near - surface) / self.job.plunge_feed
+    }
+
     /// Straight down to a height, at the plunge feed.
     pub fn plunge(&mut self, z: f64) {
         if let Some(at) = self.at {
@@ -113,7 +132,7 @@ impl<'a> Cutter<'a> {
         }
         let length = self.at.map_or(0.0, |at| at.distance(to));
         self.totals.rapid_length += length;
-        self.totals.minutes += length / rapid_rate(self.job.units);
+        self.totals.minutes += rapid_minutes(length, self.job.units);
         self.moves.push(Move::Rapid { to });
         self.at = Some(to);
     }
@@ -182,6 +201,18 @@ mod tests {
         assert!((cutter.totals.rapid_length - (4.0 + 7.0)).abs() < 1e-12);
         let arc = (1.5 * PI).hypot(1.0);
         assert!((cutter.totals.cut_length - (2.0 + arc)).abs() < 1e-3);
+    }
+
+    #[test]
+    fn the_time_of_a_way_over_is_known_before_it_is_taken() {
+        let job = Job::new(Units::Mm, 2.0, 1.0);
+        let mut cutter = Cutter::new(&job);
+        cutter.over(point(1.0, 0.0), 0.0);
+        cutter.plunge(-1.0);
+        let (before, expected) = (cutter.totals.minutes, cutter.minutes_over(point(40.0, 3.0), -1.0));
+        cutter.over(point(40.0, 3.0), -1.0);
+        cutter.plunge(-1.0);
+        assert!((cutter.totals.minutes - before - expected).abs() < 1e-12);
     }
 
     #[test]

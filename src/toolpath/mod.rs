@@ -10,17 +10,21 @@
 //!
 //! **Method.** Levels lie at tool radius + stock and on from there in equal steps, until nothing is
 //! left. Loops of neighboring levels are paired (`nest`) and cut in chains, from the inside out or
-//! from the wall inward, at every height. Neighbors are joined by straight links at depth; elsewhere
-//! the tool goes up, across, and down into a neighbor that is cut already, or by a ramp into the
-//! stock (`plan`).
+//! from the wall inward, at every height. Neighbors are joined by straight links at depth, others by
+//! links along the axis (`detour`) over what is cut already, where that takes less time than going
+//! up, across, and down into a neighbor; what has no neighbor that is cut is entered by a ramp into
+//! the stock (`plan`).
 
+mod approach;
 mod course;
 mod cutter;
+mod detour;
 mod job;
 mod moves;
 mod nest;
 mod path;
 mod plan;
+mod roads;
 #[cfg(test)]
 mod tests;
 mod warning;

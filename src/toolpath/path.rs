@@ -91,7 +91,7 @@ impl Job {
             };
             self.note_room(&mut path, pocket, &own, largest, neck);
             let is_clear = |link: &Element, radius: f64| mat.is_clear(link, radius);
-            self.cut(&mut planner, &mut own, levels, &is_clear)?;
+            self.cut(&mut planner, &mut own, levels, (&is_clear, mat))?;
             path.pockets.push(own);
         }
         self.conclude(path, planner)
@@ -102,11 +102,11 @@ impl Job {
         planner: &mut Planner,
         own: &mut PocketPath,
         levels: Vec<Level>,
-        clear: &IsClear,
+        (is_clear, mat): (&IsClear, &Mat),
     ) -> Result<(), Error> {
         let before = planner.cutter.moves.len();
         if self.tool > 0.0 && own.machined {
-            own.passes = planner.pocket(&levels, clear)?;
+            own.passes = planner.pocket(&levels, is_clear, Some(mat))?;
         }
         own.moves = before..planner.cutter.moves.len();
         own.levels = levels;

@@ -1,17 +1,20 @@
 //! The passes of one pocket in order, joined by links, each entered without harm.
 //!
-//! **Needs** the levels of a pocket and a judge of straight links.
+//! **Needs** the levels of a pocket, a judge of straight links, and the axis if links shall follow it.
 //! **Guarantees** that rapids run at the clearance or straight down into a place already cut that
-//! deep; that a link at depth joins neighbors, is as long as their distance, and stays clear of the
-//! wall by the tool radius and the stock; that a ramped stretch is cut again at depth.
+//! deep; that a link at depth joins neighbors and is as long as their distance, or follows the axis
+//! (`detour`) in less time than lifting the tool would take; that it stays clear of the wall by the
+//! tool radius and the stock; that a ramped stretch is cut again at depth.
 //! **Does not** shorten the way between pockets or between branches of a pocket.
 
 use super::course::Course;
 use super::cutter::Cutter;
+use super::detour::Detours;
 use super::nest::{Nest, Pass, index};
 use super::{Direction, Entry, Job, Start, Warning};
 use crate::error::Error;
 use crate::geom::{ArcSpline, Bounds, Element, Point};
+use crate::mat::Mat;
 use crate::offset::Level;
 
 /// Largest number of moves of a path.
@@ -26,31 +29,33 @@ pub(super) type IsClear<'a> = dyn Fn(&Element, f64) -> bool + 'a;
 
 /// Plans pockets one after the other.
 pub(super) struct Planner<'a> {
-    job: &'a Job,
+    pub job: &'a Job,
     pub cutter: Cutter<'a>,
     /// Ramps and plunges that stand for another kind of entry, and the first of these plunges.
     fallbacks: Option<(usize, usize, Option<Point>)>,
 }
 
 /// What is known of the pocket at hand.
-struct Ground<'a> {
+pub(super) struct Ground<'a> {
     levels: &'a [Level],
-    nest: Nest,
-    is_clear: &'a IsClear<'a>,
-    slack: f64,
+    pub nest: Nest,
+    pub is_clear: &'a IsClear<'a>,
+    /// Links along the axis, if there is one.
+    pub detours: Option<Detours<'a>>,
+    pub slack: f64,
     /// Passes cut at the height at hand.
-    done: Vec<bool>,
+    pub done: Vec<bool>,
     /// The pass in whose end the tool stands.
-    last: Option<usize>,
+    pub last: Option<usize>,
     /// Where each pass should begin, if that is known before.
-    begin: Vec<Option<Point>>,
+    pub begin: Vec<Option<Point>>,
 }
 
 /// From where to where one height is cut.
 #[derive(Clone, Copy)]
-struct Height {
-    surface: f64,
-    z: f64,
+pub(super) struct Height {
+    pub surface: f64,
+    pub z: f64,
 }
 
 impl<'a> Planner<'a> {
@@ -59,8 +64,13 @@ impl<'a> Planner<'a> {
         Planner { job, cutter: Cutter::new(job), fallbacks: None }
     }
 
-    /// Cuts a pocket and answers the number of passes.
-    pub fn pocket(&mut self, levels: &[Level], is_clear: &IsClear) -> Result<usize, Error> {
+    /// Cuts a pocket and answers the number of passes. Without its axis, links are straight.
+    pub fn pocket(
+        &mut self,
+        levels: &[Level],
+        is_clear: &IsClear,
+        mat: Option<&Mat>,
+    ) -> Result<usize, Error> {
         let bounds = levels
             .iter()
             .take(1)
@@ -71,7 +81,8 @@ impl<'a> Planner<'a> {
         let order = nest.order(self.job.start);
         let (done, begin) = (vec![false; order.len()], vec![None; order.len()]);
         let last = self.last_passes(levels, &nest);
-        let mut ground = Ground { levels, nest, is_clear, slack, done, last: None, begin };
+        let detours = mat.map(|mat| Detours::new(mat, levels, slack));
+        let mut ground = Ground { levels, nest, is_clear, detours, slack, done, last: None, begin };
         let needed = order.into_iter().filter(|&p| !ground.is_covered(p));
         let (wall, rough): (Vec<usize>, Vec<usize>) = needed.partition(|&p| last[p]);
         if self.job.start == Start::Outside {
@@ -122,7 +133,7 @@ impl<'a> Planner<'a> {
 
     fn passes(&mut self, ground: &mut Ground, order: &[usize], height: Height) -> Result<(), Error> {
         for (i, &pass) in order.iter().enumerate() {
-            self.pass(ground, pass, order.get(i + 1).copied(), height)?;
+            self.pass(ground, pass, &order[i + 1..], height)?;
         }
         Ok(())
     }
@@ -131,21 +142,16 @@ impl<'a> Planner<'a> {
         &mut self,
         ground: &mut Ground,
         pass: usize,
-        next: Option<usize>,
+        rest: &[usize],
         height: Height,
     ) -> Result<(), Error> {
         let Some(course) = Course::along(ground.spline(pass), self.is_backwards(ground, pass)) else {
             return Ok(());
         };
         self.afford(course.elements.len() as u64)?;
-        let linked = self.link(ground, pass, &course);
-        let course = match linked.or_else(|| self.door(ground, pass, &course, height)) {
-            Some(course) => course,
-            None => {
-                let place = ground.begin[pass].or_else(|| ground.toward(pass, next));
-                let place = course.nearest(place.unwrap_or_else(|| course.calm_place()));
-                self.enter(course.begun_at(place, ground.slack), height)?
-            }
+        let course = match self.link(ground, pass, &course) {
+            Some(linked) => linked,
+            None => self.approach(ground, (pass, rest), course, height)?,
         };
         for e in &course.elements {
             self.cutter.cut(e);
@@ -155,7 +161,7 @@ impl<'a> Planner<'a> {
         Ok(())
     }
 
-    fn afford(&self, more: u64) -> Result<(), Error> {
+    pub fn afford(&self, more: u64) -> Result<(), Error> {
         let needed = self.cutter.moves.len() as u64 + more;
         if needed > MAX_MOVES {
             return Err(Error::Effort { what: "the path in moves", needed, limit: MAX_MOVES });
@@ -187,38 +193,13 @@ impl<'a> Planner<'a> {
         })
     }
 
-    /// Down beside the pass, into a neighbor that is already cut, and straight over from there.
-    fn door(&mut self, ground: &Ground, pass: usize, course: &Course, height: Height) -> Option<Course> {
-        let here = self.cutter.at()?;
-        let inner = ground.nest.inner[pass].iter().map(|d| (d, true));
-        let outer = ground.nest.outer[pass].iter().map(|d| (d, false));
-        let open = inner.chain(outer).filter(|(d, _)| ground.done[d.pass]);
-        let (door, inside) =
-            open.min_by(|(a, _), (b, _)| a.at.distance(here).total_cmp(&b.at.distance(here)))?;
-        [ground.begin[pass], Some(door.at)].into_iter().flatten().find_map(|place| {
-            let begun = course.clone().begun_at(course.nearest(place), ground.slack);
-            let from = if inside {
-                door.at
-            } else {
-                Course::along(ground.spline(door.pass), false)?.nearest(begun.start).point
-            };
-            let link = Element::segment(from, begun.start);
-            self.may_link(ground, &link, pass, door.pass).then(|| {
-                self.cutter.over(from, height.z);
-                self.cutter.plunge(height.z);
-                self.cutter.cut(&link);
-                begun
-            })
-        })
-    }
-
-    fn may_link(&self, ground: &Ground, link: &Element, a: usize, b: usize) -> bool {
+    pub fn may_link(&self, ground: &Ground, link: &Element, a: usize, b: usize) -> bool {
         link.length() <= ground.apart(a, b) + ground.slack
             && (ground.is_clear)(link, self.job.wall_distance())
     }
 
     /// Down into full stock: along the pass where it is long enough, else straight.
-    fn enter(&mut self, course: Course, height: Height) -> Result<Course, Error> {
+    pub fn enter(&mut self, course: Course, height: Height) -> Result<Course, Error> {
         let length = course.length();
         if self.job.entry == Entry::Plunge || length <= self.job.radius() {
             self.fell_back(Entry::Plunge, course.start);
@@ -259,7 +240,7 @@ impl<'a> Planner<'a> {
 }
 
 impl Ground<'_> {
-    fn spline(&self, pass: usize) -> &ArcSpline {
+    pub fn spline(&self, pass: usize) -> &ArcSpline {
         let Pass { level, index } = self.nest.passes[pass];
         let level = &self.levels[level];
         level.loops.get(index).unwrap_or_else(|| &level.ridges[index - level.loops.len()])
@@ -293,13 +274,13 @@ impl Ground<'_> {
     }
 
     /// Difference of the distances of two passes from the wall.
-    fn apart(&self, a: usize, b: usize) -> f64 {
+    pub fn apart(&self, a: usize, b: usize) -> f64 {
         let distance = |pass: usize| self.levels[self.nest.passes[pass].level].distance;
         (distance(a) - distance(b)).abs()
     }
 
     /// A place of the pass from which the next one lies straight across, if that is a neighbor.
-    fn toward(&self, pass: usize, next: Option<usize>) -> Option<Point> {
+    pub fn toward(&self, pass: usize, next: Option<usize>) -> Option<Point> {
         let doors = self.nest.outer[pass].iter().chain(&self.nest.inner[pass]);
         doors.into_iter().find(|d| Some(d.pass) == next).map(|d| d.at)
     }

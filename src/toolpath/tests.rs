@@ -55,7 +55,7 @@ struct Planned {
 fn plan(level: fn(f64) -> Level, depth: fn(Point) -> f64, job: &Job) -> Planned {
     job.validate().unwrap();
     let mut planner = Planner::new(job);
-    let passes = planner.pocket(&levels(level, job), &clear(depth)).unwrap();
+    let passes = planner.pocket(&levels(level, job), &clear(depth), None).unwrap();
     let warnings = planner.finish();
     Planned {
         moves: std::mem::take(&mut planner.cutter.moves),
@@ -259,7 +259,7 @@ fn a_place_where_the_tool_just_fits_is_drilled_and_said() {
 fn links_that_would_meet_the_wall_are_not_taken() {
     let job = job();
     let mut planner = Planner::new(&job);
-    planner.pocket(&levels(square_level, &job), &|_: &Element, _| false).unwrap();
+    planner.pocket(&levels(square_level, &job), &|_: &Element, _| false, None).unwrap();
     planner.finish();
     // Each pass of each height is entered for itself.
     assert_eq!(planner.cutter.totals.retracts, 8);
@@ -269,7 +269,7 @@ fn links_that_would_meet_the_wall_are_not_taken() {
 fn too_many_moves_are_an_error_and_not_a_hang() {
     let job = Job { ramp_angle: 1e-9, depth: 1e6, step_down: Some(1e6), ..job() };
     let mut planner = Planner::new(&job);
-    let result = planner.pocket(&levels(square_level, &job), &clear(depth_in_square));
+    let result = planner.pocket(&levels(square_level, &job), &clear(depth_in_square), None);
     assert!(matches!(result, Err(crate::Error::Effort { .. })));
 }
 

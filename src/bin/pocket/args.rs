@@ -29,9 +29,9 @@ pub struct Args {
 
     /// File to write; repeatable, the extension chooses the form
     ///
-    /// .nc .ngc .gcode .tap .cnc for G-code, .svg for a picture, .json for a document for CAM
-    /// software, - for G-code on standard output. Files are written whole or not at all. Without
-    /// this option there is a report only.
+    /// .nc .ngc .gcode .tap .cnc for G-code, .dxf for a drawing with boundary, axis, offsets and path
+    /// on layers, .svg for a picture, .json for a document for CAM software, - for G-code on standard
+    /// output. Files are written whole or not at all. Without this option there is a report only.
     #[arg(short, long = "output", value_name = "FILE")]
     pub outputs: Vec<PathBuf>,
 

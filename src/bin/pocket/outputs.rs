@@ -4,6 +4,7 @@
 use crate::args::{Args, ReportArg};
 use crate::failure::Failure;
 use crate::plan::Plan;
+use medial::Error;
 use medial::io::atomic;
 use medial::io::gcode::{self, Setup, Stats};
 use std::collections::BTreeSet;
@@ -14,6 +15,7 @@ use std::path::{Path, PathBuf};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
     Gcode,
+    Dxf,
     Svg,
     Json,
 }
@@ -30,11 +32,12 @@ impl Form {
         let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_ascii_lowercase();
         match extension.as_str() {
             "nc" | "ngc" | "gcode" | "tap" | "cnc" => Ok(Form::Gcode),
+            "dxf" => Ok(Form::Dxf),
             "svg" => Ok(Form::Svg),
             "json" => Ok(Form::Json),
             _ => Err(Failure::usage(
                 format!("the form of {} is not known", path.display()),
-                "end its name in .nc .ngc .gcode .tap .cnc (G-code), .svg (picture) or .json (document)",
+                "end its name in .nc .ngc .gcode .tap .cnc (G-code), .dxf (drawing), .svg (picture) or .json (document)",
             )),
         }
     }
@@ -73,7 +76,7 @@ impl Outputs {
         if no_tool && self.has_program() {
             return Err(Failure::usage(
                 "--tool 0 asks for level sets alone, a program needs a tool",
-                "give the diameter of the tool, or write -o part.json or -o part.svg",
+                "give the diameter of the tool, or write -o part.json, -o part.dxf or -o part.svg",
             ));
         }
         if let Some((path, _)) = self.files.iter().find(|(p, _)| same_file(p, &args.drawing)) {
@@ -97,6 +100,7 @@ impl Outputs {
         for (path, form) in &self.files {
             let bytes = match form {
                 Form::Gcode => text.as_bytes().to_vec(),
+                Form::Dxf => plan.drawing().map_err(|cause| cannot_write(path, cause))?,
                 Form::Svg => plan.picture().into_bytes(),
                 Form::Json => plan.document().to_json().into_bytes(),
             };
@@ -117,6 +121,10 @@ pub fn print_out(text: &str) -> Result<(), Failure> {
         Err(e) if e.kind() != std::io::ErrorKind::BrokenPipe => Err(Failure::standard_output(&e)),
         _ => Ok(()),
     }
+}
+
+fn cannot_write(path: &Path, cause: std::io::Error) -> Error {
+    Error::File { action: "write", path: path.display().to_string(), cause }
 }
 
 fn same_file(a: &Path, b: &Path) -> bool {
@@ -142,6 +150,7 @@ mod tests {
             assert_eq!(outputs(&["-o", name]).unwrap().files[0].1, Form::Gcode);
         }
         assert_eq!(outputs(&["-o", "a.svg", "-o", "a.json"]).unwrap().files[1].1, Form::Json);
+        assert_eq!(outputs(&["-o", "b.DXF"]).unwrap().files[0].1, Form::Dxf);
     }
 
     #[test]

@@ -5,11 +5,12 @@ use crate::failure::Failure;
 use crate::notice::Notice;
 use crate::progress::Progress;
 use crate::timings::{Timings, timed};
-use medial::io::dxf::{self, Drawing};
+use medial::io::dxf::{self, Drawing, Sheet};
 use medial::io::json::Document;
 use medial::io::svg::Picture;
 use medial::toolpath::{Job, Path};
 use medial::{Error, Mat, Pocket, Pockets, Tolerance};
+use std::io;
 
 /// All that is known when the work is done.
 pub struct Plan {
@@ -72,6 +73,19 @@ impl Plan {
             document.add(pocket, mat, &path.levels);
         }
         document
+    }
+
+    /// The drawing of everything, as DXF.
+    pub fn drawing(&self) -> io::Result<Vec<u8>> {
+        let edges: Vec<_> = self.mats.iter().flat_map(Mat::edges).collect();
+        let sheet = Sheet::new(self.job.units)
+            .pockets(&self.pockets)
+            .axis(&edges)
+            .levels(self.path.pockets.iter().flat_map(|p| &p.levels))
+            .path(&self.path.moves, self.tolerance.fit);
+        let mut text = Vec::new();
+        sheet.write(&mut text)?;
+        Ok(text)
     }
 
     /// The picture of everything, as SVG.

@@ -1,4 +1,4 @@
-//! DXF drawings, text and binary, any version.
+//! DXF drawings, text and binary, any version, and [`Sheet`] to write them.
 //!
 //! [`read`] answers the curves of the model space in the unit of the job: LINE, ARC, CIRCLE,
 //! LWPOLYLINE and flat POLYLINE with bulges. Whatever else a drawing holds is a warning with its
@@ -17,6 +17,8 @@ mod select;
 mod shape;
 mod skipped;
 mod tags;
+mod writer;
 
 pub use drawing::{Drawing, ReadOptions};
 pub use read::{read, read_bytes};
+pub use writer::Sheet;

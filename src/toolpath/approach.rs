@@ -1,0 +1,148 @@
+//! The way to a pass that no straight link leads to.
+//!
+//! Along the axis at depth, if that takes less time; else up, across, and down into a neighbor that is
+//! cut already and straight over from there; else down into full stock.
+
+use super::course::Course;
+use super::detour::Wish;
+use super::plan::{Ground, Height, Planner};
+use crate::error::Error;
+use crate::geom::{Element, Point};
+
+/// Farthest that a link along the axis may leave it, in tool radii: nothing is shaped by such a link,
+/// and its distance to the wall is judged for itself.
+const LINK_FLATNESS: f64 = 1.0 / 64.0;
+
+/// A way down beside a pass, into a neighbor that is cut already, and straight over from there.
+struct Approach {
+    link: Element,
+    /// The pass, begun where the link ends.
+    begun: Course,
+}
+
+/// Lengths of cut that take as long as what a link along the axis stands for.
+#[derive(Clone, Copy)]
+struct Limits {
+    /// The way over to the pass.
+    length: f64,
+    /// Lifting the tool and coming down again.
+    lift: f64,
+}
+
+impl Planner<'_> {
+    /// To a pass that no straight link leads to: beside what is cut along the axis or over it, else
+    /// down into full stock.
+    pub fn approach(
+        &mut self,
+        ground: &mut Ground,
+        (pass, rest): (usize, &[usize]),
+        course: Course,
+        height: Height,
+    ) -> Result<Course, Error> {
+        let Some(Approach { link, begun }) = self.door(ground, pass, &course) else {
+            let place = ground.begin[pass].or_else(|| ground.toward(pass, rest.first().copied()));
+            let place = course.nearest(place.unwrap_or_else(|| course.calm_place()));
+            return self.enter(course.begun_at(place, ground.slack), height);
+        };
+        let as_long = |p: Point| self.cutter.minutes_over(p, height.z) * self.job.feed;
+        let lift = self.cutter.at().map_or(0.0, as_long);
+        let limits = Limits { length: as_long(link.start) + link.length(), lift };
+        if let Some(detoured) = self.detour(ground, (pass, rest), course, limits) {
+            return Ok(detoured);
+        }
+        self.cutter.over(link.start, height.z);
+        self.cutter.plunge(height.z);
+        self.cutter.cut(&link);
+        Ok(begun)
+    }
+
+    /// Along the axis to the pass, if that takes less time than the way over.
+    fn detour(
+        &mut self,
+        ground: &mut Ground,
+        (pass, rest): (usize, &[usize]),
+        course: Course,
+        limits: Limits,
+    ) -> Option<Course> {
+        let flat = LINK_FLATNESS * self.job.radius();
+        let places = ground.detour(self.cutter.at()?, pass, limits.length, flat)?;
+        let end = *places.last()?;
+        let begun = course.nearest(end);
+        let begun = course.begun_at(begun, ground.slack);
+        if begun.start.distance(end) > ground.slack {
+            return None;
+        }
+        let links = chain(&places, begun.start, ground.slack);
+        let length: f64 = links.iter().map(Element::length).sum();
+        // Where the passes that follow would rather be lifted to, nothing is gained.
+        let farther = ground.farther_on(begun.start, pass, rest, limits.lift);
+        if farther >= limits.lift || length + farther >= limits.length {
+            return None;
+        }
+        let clear = |link: &Element| (ground.is_clear)(link, self.job.wall_distance());
+        if !links.iter().all(clear) || self.afford(links.len() as u64).is_err() {
+            return None;
+        }
+        links.iter().for_each(|link| self.cutter.cut(link));
+        Some(begun)
+    }
+
+    /// Where to get down beside the pass.
+    fn door(&self, ground: &Ground, pass: usize, course: &Course) -> Option<Approach> {
+        let here = self.cutter.at()?;
+        let inner = ground.nest.inner[pass].iter().map(|d| (d, true));
+        let outer = ground.nest.outer[pass].iter().map(|d| (d, false));
+        let open = inner.chain(outer).filter(|(d, _)| ground.done[d.pass]);
+        let (door, inside) =
+            open.min_by(|(a, _), (b, _)| a.at.distance(here).total_cmp(&b.at.distance(here)))?;
+        [ground.begin[pass], Some(door.at)].into_iter().flatten().find_map(|place| {
+            let begun = course.clone().begun_at(course.nearest(place), ground.slack);
+            let from = if inside {
+                door.at
+            } else {
+                Course::along(ground.spline(door.pass), false)?.nearest(begun.start).point
+            };
+            let link = Element::segment(from, begun.start);
+            self.may_link(ground, &link, pass, door.pass).then_some(Approach { link, begun })
+        })
+    }
+}
+
+impl Ground<'_> {
+    /// The places of a link along the axis from the end of the last pass to another one.
+    fn detour(&mut self, from: Point, to: usize, shorter_than: f64, flat: f64) -> Option<Vec<Point>> {
+        let (nest, done, last) = (&self.nest, &self.done[..], self.last?);
+        self.detours.as_mut()?.find(&Wish { nest, done, from, last, to, shorter_than, flat })
+    }
+
+    /// How much longer than the step, in all, the links of the chain inward from a pass become when it
+    /// begins here and not where it was planned to; counted no farther than a limit.
+    fn farther_on(&self, begin: Point, pass: usize, rest: &[usize], limit: f64) -> f64 {
+        let inward = |from: usize, to: usize| self.nest.inner[from].iter().any(|d| d.pass == to);
+        let Some(&next) = rest.first().filter(|&&next| inward(pass, next)) else { return 0.0 };
+        let Some(course) = Course::along(self.spline(next), false) else { return 0.0 };
+        let each = course.nearest(begin).distance - self.apart(pass, next);
+        if each <= self.slack {
+            return 0.0;
+        }
+        // Later links turn out about as long as the first, as all lead along the axis.
+        let most = (limit / each).ceil() as usize;
+        let chain = rest.windows(2).take(most).take_while(|w| inward(w[0], w[1])).count() + 1;
+        each * chain as f64
+    }
+}
+
+/// Segments through places, the last of them moved to `end`; none as short as round-off but the last.
+fn chain(places: &[Point], end: Point, slack: f64) -> Vec<Element> {
+    let Some((&first, rest)) = places.split_first() else { return Vec::new() };
+    let mut links = Vec::with_capacity(rest.len());
+    let mut at = first;
+    for &p in rest.iter().take(rest.len().saturating_sub(1)) {
+        if at.distance(p) > slack {
+            links.push(Element::segment(at, p));
+            at = p;
+        }
+    }
+    links.push(Element::segment(at, end));
+    links
+}
