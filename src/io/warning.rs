@@ -135,6 +135,11 @@ pub enum Warning {
         /// Its middle.
         at: Point,
     },
+    /// The drawing was moved, as the user wished; all other places are told after that.
+    OriginMoved {
+        /// The place of the drawing that the origin lies at now.
+        to: Point,
+    },
     /// The file breaks off.
     Truncated,
     /// The drawing does not say its unit.
@@ -176,6 +181,7 @@ impl Warning {
             Warning::NoSuchLayer { .. } => "no-such-layer",
             Warning::NoSuchColor { .. } => "no-such-color",
             Warning::ImplausibleSize { .. } => "implausible-size",
+            Warning::OriginMoved { .. } => "origin-moved",
             Warning::Truncated => "truncated",
             Warning::UnitAssumed { .. } => "unit-assumed",
             Warning::Defect(defect) => defect_kind(defect),
@@ -233,6 +239,9 @@ impl Warning {
                 let other = if *large { smaller } else { larger };
                 format!("if that is wrong: --dxf-units {other}, or multiply it with --scale")
             }
+            Warning::OriginMoved { .. } => {
+                "nothing to do; all places in this report and in what is written are told from there".into()
+            }
             Warning::Truncated => "save the drawing again: its end is missing".into(),
             Warning::UnitAssumed { unit, .. } => {
                 let other = if *unit == DrawingUnit::Inch { "mm" } else { "in" };
@@ -280,6 +289,7 @@ impl fmt::Display for Warning {
                     "the part is {width:.6} by {height:.6} {job}, which is very {size}; the drawing is read in {unit}"
                 )
             }
+            Warning::OriginMoved { to } => write!(f, "the origin is moved to {to} of the drawing"),
             Warning::Truncated => write!(f, "the file ends without its end mark"),
             Warning::UnitAssumed { unit, flagged: true, .. } => {
                 write!(f, "the drawing does not say its unit; {unit} assumed after its measurement flag")

@@ -184,7 +184,7 @@ impl<'a> Collection<'a> {
 }
 
 /// A place of an entity, as near to it as it can be told.
-fn place_of(record: &Record, context: &Context, scale: Scale) -> Option<Point> {
+pub(super) fn place_of(record: &Record, context: &Context, scale: Scale) -> Option<Point> {
     let mut numbers = &record.numbers[..];
     if record.kind == Kind::Polyline {
         let (_, mut vertices) = record.numbers().split(VERTEX);

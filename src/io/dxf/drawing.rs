@@ -1,7 +1,7 @@
 //! What is read from a file, and what a caller may ask for.
 
 use super::Color;
-use crate::boundary::{Curve, FreeCurve};
+use crate::boundary::{Curve, FreeCurve, FreeShape};
 use crate::geom::{Bounds, Point, Vector, point};
 use crate::io::{DrawingUnit, Warning};
 use crate::tolerance::Units;
@@ -99,11 +99,11 @@ impl Drawing {
         }
         self.free.iter_mut().for_each(|free| move_free(free, by));
         self.warnings.iter_mut().for_each(|warning| warning.move_by(by));
+        self.warnings.push(Warning::OriginMoved { to });
     }
 }
 
 fn move_free(free: &mut FreeCurve, by: Vector) {
-    use crate::boundary::FreeShape;
     match &mut free.shape {
         FreeShape::Ellipse(ellipse) => ellipse.center = ellipse.center + by,
         FreeShape::Spline(spline) => {

@@ -1,6 +1,6 @@
 //! Blocks and their inserts.
 
-use super::collect::{Collection, Context, Tables};
+use super::collect::{Collection, Context, Tables, place_of};
 use super::names::{Name, Names};
 use super::placement::Placement;
 use super::record::{Kind, Numbers, Record};
@@ -140,7 +140,8 @@ fn enter<'a>(
             Some(Visit { block, array, cell: 0, next: 0, outer: *outer, inner, entities })
         }
         Err(reason) => {
-            collection.skipped.fault(tables.names.text(insert.kind_name), insert, &reason, None);
+            let at = place_of(insert, outer, tables.scale);
+            collection.skipped.fault(tables.names.text(insert.kind_name), insert, &reason, at);
             None
         }
     }

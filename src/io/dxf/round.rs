@@ -57,7 +57,10 @@ pub(super) fn round(
         let ellipse = Ellipse::from_conjugate(middle, a, b, start.to_radians(), turn.to_radians());
         return drawn.ellipse(ellipse);
     }
-    if is_usable(middle) && is_lost_beside(a.length(), middle) {
+    if !is_usable(middle) {
+        return Skip::fault("it is too large to calculate with");
+    }
+    if is_lost_beside(a.length(), middle) {
         return Skip::fault("its radius is smaller than the last digit of its center");
     }
     let (vertices, closed) = arc_vertices(|unit| center + unit * radius, start, turn);

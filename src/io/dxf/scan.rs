@@ -165,12 +165,11 @@ impl<'a> Scan<'a> {
             }
             // Without a polyline they end an insert or stand there by accident.
             b"VERTEX" | b"SEQEND" | b"ATTRIB" => {
-                if kind == b"VERTEX" && self.part != Part::None {
+                if kind == b"VERTEX" {
                     self.mends.count(Mend::StrayVertex, tag.place);
                 }
-                let ended = std::mem::take(&mut self.part);
+                self.part = Part::None;
                 self.finish_entity()?;
-                self.part = if ended == Part::Block { Part::Block } else { Part::None };
                 return Ok(());
             }
             _ => {}
