@@ -208,7 +208,7 @@ impl Warning {
         match self {
             Warning::EntitySkipped { at: Some(at), .. }
             | Warning::Simplified { at: Some(at), .. }
-            | Warning::ImplausibleSize { at, .. } => *at = *at + by,
+            | Warning::ImplausibleSize { at, .. } => *at += by,
             _ => {}
         }
     }

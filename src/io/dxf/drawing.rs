@@ -95,7 +95,7 @@ impl Drawing {
         let by = point(0.0, 0.0) - to;
         self.origin = to;
         for vertex in self.curves.iter_mut().flat_map(|c| &mut c.path.vertices) {
-            vertex.point = vertex.point + by;
+            vertex.point += by;
         }
         self.free.iter_mut().for_each(|free| move_free(free, by));
         self.warnings.iter_mut().for_each(|warning| warning.move_by(by));
@@ -105,9 +105,9 @@ impl Drawing {
 
 fn move_free(free: &mut FreeCurve, by: Vector) {
     match &mut free.shape {
-        FreeShape::Ellipse(ellipse) => ellipse.center = ellipse.center + by,
+        FreeShape::Ellipse(ellipse) => ellipse.center += by,
         FreeShape::Spline(spline) => {
-            spline.control.iter_mut().chain(&mut spline.fit).for_each(|p| *p = *p + by);
+            spline.control.iter_mut().chain(&mut spline.fit).for_each(|p| *p += by);
         }
     }
 }

@@ -217,7 +217,7 @@ mod tests {
         ] {
             assert_eq!(all(text.as_bytes()), (wanted.to_vec(), None), "{text:?}");
         }
-        let (found, blanks) = all("\u{feff}\n  0 \n\tLINE  \n\n  8\n \n10\0\n\01.5 \n".as_bytes());
+        let (found, blanks) = all("\u{feff}\n  0 \n\tLINE  \n\n  8\n \n10\0\n\x001.5 \n".as_bytes());
         assert_eq!((&found[..], blanks), (&wanted[..], Some((2, Place::Line(1)))));
     }
 
