@@ -107,6 +107,20 @@ fn arcs_meet_lines_to_the_last_bit_at_quarters() {
 }
 
 #[test]
+fn arcs_that_share_an_angle_meet_to_the_last_bit() {
+    let mut meetings = 0;
+    for i in 0..100 {
+        let angle = 7.3 + 3.1 * f64::from(i);
+        let (before, after) = (angle - 33.7, angle + 207.9);
+        let d = read_entities(&format!(
+            "0 ARC; 10 5.1; 20 7.3; 40 2.7; 50 {before}; 51 {angle}; 0 ARC; 10 5.1; 20 7.3; 40 2.7; 50 {angle}; 51 {after}"
+        ));
+        meetings += usize::from(ends(&d.curves[0].path)[1] == ends(&d.curves[1].path)[0]);
+    }
+    assert_eq!(meetings, 100);
+}
+
+#[test]
 fn light_and_heavy_polylines_are_the_same() {
     let d = read_entities(
         "0 LWPOLYLINE; 90 3; 70 1; 10 0; 20 0; 10 4; 20 0; 42 0.5; 10 4; 20 3;

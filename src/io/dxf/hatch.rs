@@ -6,7 +6,7 @@
 use super::placement::{Placement, Plane};
 use super::polyline::bulged_vertices;
 use super::record::Numbers;
-use super::round::{elliptic, round};
+use super::round::{Sweep, elliptic, round};
 use super::shape::{Drawn, Skip, Stage, normal};
 use super::spline::{add, degree, weights};
 use crate::geom::{Spline, Vertex, point, vector};
@@ -57,29 +57,27 @@ fn draw_edge(edge: Numbers, height: f64, plane: &Plane, stage: Stage, drawn: &mu
             if radius <= 0.0 {
                 return Err(Skip::Fault(format!("an edge has the radius {radius}")));
             }
-            round(flat(10)?, radius, range(edge, forward, 360.0)?, plane, drawn)
+            round(flat(10)?, radius, sweep(edge, forward)?, plane, drawn)
         }
         3 => {
             let (center, major) = (flat(10)?, flat(11)?.to_vector());
             let minor = major.left() * edge.need(40)?;
-            // They are written in degrees.
-            let range = range(edge, forward, 360.0)?.map(|a| if a == 360.0 { TAU } else { a.to_radians() });
+            // Parameters are written in degrees, here alone.
+            let Sweep { start, end, turn } = sweep(edge, forward)?;
+            let turn = if turn == 360.0 { TAU } else { turn.to_radians() };
+            let sweep = Sweep { start: start.to_radians(), end: end.to_radians(), turn };
             let axes = [[major.x, major.y, 0.0], [minor.x, minor.y, 0.0]];
-            elliptic([center.x, center.y, height], axes, range, stage, drawn)
+            elliptic([center.x, center.y, height], axes, sweep, stage, drawn)
         }
         4 => draw_spline(edge, plane, drawn),
         kind => Err(Skip::Fault(format!("an edge is of the unknown kind {kind}"))),
     }
 }
 
-/// Where an edge begins and how far it turns, counter-clockwise.
-fn range(edge: Numbers, forward: bool, full: f64) -> Result<[f64; 2], Skip> {
+/// What a round edge covers, counter-clockwise, in degrees.
+fn sweep(edge: Numbers, forward: bool) -> Result<Sweep, Skip> {
     let (start, end) = (edge.need(50)?, edge.need(51)?);
-    let turn = end - start;
-    // An end below the start is written past a whole turn by some programs only.
-    let turn = if turn <= 0.0 { turn.rem_euclid(full) } else { turn.min(full) };
-    let turn = if turn == 0.0 { full } else { turn };
-    Ok([if forward { start } else { -(start + turn) }, turn])
+    if forward { Sweep::new(start, end, 360.0) } else { Sweep::new(-end, -start, 360.0) }
 }
 
 fn draw_spline(edge: Numbers, plane: &Plane, drawn: &mut Drawn) -> Result<(), Skip> {

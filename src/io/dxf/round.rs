@@ -22,15 +22,14 @@ pub(super) fn line(numbers: Numbers, stage: Stage, drawn: &mut Drawn) -> Result<
 pub(super) fn circle(numbers: Numbers, stage: Stage, drawn: &mut Drawn) -> Result<(), Skip> {
     let (center, radius) = center_and_radius(numbers)?;
     let plane = stage.plane(numbers, numbers.or(30, 0.0))?;
-    round(center, radius, [0.0, 360.0], &plane, drawn)
+    round(center, radius, Sweep::FULL, &plane, drawn)
 }
 
 pub(super) fn arc(numbers: Numbers, stage: Stage, drawn: &mut Drawn) -> Result<(), Skip> {
     let (center, radius) = center_and_radius(numbers)?;
-    let (start, end) = (numbers.need(50)?, numbers.need(51)?);
-    let turn = turn(start, end, 360.0)?;
+    let sweep = Sweep::new(numbers.need(50)?, numbers.need(51)?, 360.0)?;
     let plane = stage.plane(numbers, numbers.or(30, 0.0))?;
-    round(center, radius, [start, turn], &plane, drawn)
+    round(center, radius, sweep, &plane, drawn)
 }
 
 fn center_and_radius(numbers: Numbers) -> Result<(Point, f64), Skip> {
@@ -42,11 +41,43 @@ fn center_and_radius(numbers: Numbers) -> Result<(Point, f64), Skip> {
     Ok((point(x, y), radius))
 }
 
-/// Adds an arc in a plane that begins at an angle and turns by another, both in degrees.
+/// What an arc covers, counter-clockwise, in degrees or radians. The end is kept beside the turn,
+/// so that what ends and what begins at an angle meet to the last bit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Sweep {
+    pub start: f64,
+    pub end: f64,
+    pub turn: f64,
+}
+
+impl Sweep {
+    /// A circle, in degrees.
+    const FULL: Sweep = Sweep { start: 0.0, end: 0.0, turn: 360.0 };
+
+    /// From one angle to another, where `full` is a whole turn. Angles may be written in any turn.
+    pub fn new(start: f64, end: f64, full: f64) -> Result<Sweep, Skip> {
+        if start == end {
+            return Skip::fault("it begins and ends at the same angle");
+        }
+        let (start, end) = (start.rem_euclid(full), end.rem_euclid(full));
+        // The larger angle goes first, so that equal angles leave a full turn.
+        let turn = if start < end { end - start } else { full - (start - end) };
+        let turn = if full - turn <= WRITTEN * full { full } else { turn };
+        Ok(Sweep { start, end, turn })
+    }
+
+    /// The same in degrees, of an angle in radians.
+    fn to_degrees(self) -> Sweep {
+        let turn = if self.turn == TAU { 360.0 } else { self.turn.to_degrees() };
+        Sweep { start: self.start.to_degrees(), end: self.end.to_degrees(), turn }
+    }
+}
+
+/// Adds an arc in a plane; its sweep is in degrees.
 pub(super) fn round(
     center: Point,
     radius: f64,
-    [start, turn]: [f64; 2],
+    sweep: Sweep,
     plane: &Plane,
     drawn: &mut Drawn,
 ) -> Result<(), Skip> {
@@ -54,8 +85,8 @@ pub(super) fn round(
     let (middle, a) = (plane.point(center), plane.vector(vector(radius, 0.0)));
     if plane.roundness() == Roundness::Lost {
         let b = plane.vector(vector(0.0, radius));
-        let ellipse = Ellipse::from_conjugate(middle, a, b, start.to_radians(), turn.to_radians());
-        return drawn.ellipse(ellipse);
+        let (start, turn) = (sweep.start.to_radians(), sweep.turn.to_radians());
+        return drawn.ellipse(Ellipse::from_conjugate(middle, a, b, start, turn));
     }
     if !is_usable(middle) {
         return Skip::fault("it is too large to calculate with");
@@ -63,7 +94,7 @@ pub(super) fn round(
     if is_lost_beside(a.length(), middle) {
         return Skip::fault("its radius is smaller than the last digit of its center");
     }
-    let (vertices, closed) = arc_vertices(|unit| center + unit * radius, start, turn);
+    let (vertices, closed) = arc_vertices(|unit| center + unit * radius, sweep);
     drawn.path(vertices, closed, plane)
 }
 
@@ -72,28 +103,14 @@ fn is_lost_beside(length: f64, p: Point) -> bool {
     p.x + length == p.x || p.y + length == p.y
 }
 
-/// How far an arc turns from one angle to another, counter-clockwise, where `full` is a whole
-/// turn. Angles may be written in any turn.
-fn turn(start: f64, end: f64, full: f64) -> Result<f64, Skip> {
-    if start == end {
-        return Skip::fault("it begins and ends at the same angle");
-    }
-    let (start, end) = (start.rem_euclid(full), end.rem_euclid(full));
-    // The larger angle goes first, so that equal angles leave a full turn.
-    let turn = if start < end { end - start } else { full - (start - end) };
-    Ok(if full - turn <= WRITTEN * full { full } else { turn })
-}
-
-/// The vertices of an arc that begins at an angle and turns by another, in degrees, and whether
-/// it is closed; `at` places unit vectors.
-fn arc_vertices(at: impl Fn(Vector) -> Point, start: f64, turn: f64) -> (Vec<Vertex>, bool) {
-    let start = start.rem_euclid(360.0);
+/// The vertices of an arc and whether it is closed; `at` places unit vectors, the sweep is in
+/// degrees.
+fn arc_vertices(at: impl Fn(Vector) -> Point, Sweep { start, end, turn }: Sweep) -> (Vec<Vertex>, bool) {
     let vertex = |angle: f64, bulge: f64| Vertex { point: at(direction(angle)), bulge };
     let half = 0.5 * turn;
     if turn == 360.0 {
         return (vec![vertex(start, 1.0), Vertex { point: at(-direction(start)), bulge: 1.0 }], true);
     }
-    let end = (start + turn).rem_euclid(360.0);
     let vertices = if turn <= 180.0 {
         vec![vertex(start, bulge(turn)), vertex(end, 0.0)]
     } else {
@@ -113,14 +130,8 @@ pub(super) fn ellipse(numbers: Numbers, stage: Stage, drawn: &mut Drawn) -> Resu
     let center = numbers.place(10)?;
     let major = numbers.place(11)?;
     let ratio = numbers.need(40)?;
-    let sweep = turn(numbers.or(41, 0.0), numbers.or(42, TAU), TAU)?;
-    elliptic(
-        center,
-        [major, minor(major, normal(numbers), ratio)?],
-        [numbers.or(41, 0.0), sweep],
-        stage,
-        drawn,
-    )
+    let sweep = Sweep::new(numbers.or(41, 0.0), numbers.or(42, TAU), TAU)?;
+    elliptic(center, [major, minor(major, normal(numbers), ratio)?], sweep, stage, drawn)
 }
 
 /// The minor axis that belongs to a major one.
@@ -133,12 +144,12 @@ fn minor(major: [f64; 3], normal: [f64; 3], ratio: f64) -> Result<[f64; 3], Skip
     Ok(cross(unit, major).map(|c| c * ratio.abs()))
 }
 
-/// Adds an elliptic arc of two axes in space, from a parameter over a range of them; a circular one
-/// where the axes are equal.
+/// Adds an elliptic arc of two axes in space, its sweep in radians; a circular one where the axes
+/// are equal.
 pub(super) fn elliptic(
     center: [f64; 3],
     axes: [[f64; 3]; 2],
-    [start, sweep]: [f64; 2],
+    sweep: Sweep,
     stage: Stage,
     drawn: &mut Drawn,
 ) -> Result<(), Skip> {
@@ -148,13 +159,14 @@ pub(super) fn elliptic(
     let [a, b] = in_space.map(|axis| seen(axis).to_vector());
     drawn.tilted |= in_space.iter().any(|axis| stage.placement.is_rising(*axis));
     let sign = match stage.placement.roundness_of(a, b) {
-        Roundness::Lost => return drawn.ellipse(Ellipse::from_conjugate(center, a, b, start, sweep)),
+        Roundness::Lost => {
+            return drawn.ellipse(Ellipse::from_conjugate(center, a, b, sweep.start, sweep.turn));
+        }
         Roundness::Kept => 1.0,
         Roundness::Mirrored => -1.0,
     };
-    let turn = if sweep == TAU { 360.0 } else { sweep.to_degrees() };
     let at = |unit: Vector| center + a * unit.x + b * unit.y;
-    let (mut vertices, closed) = arc_vertices(at, start.to_degrees(), turn);
+    let (mut vertices, closed) = arc_vertices(at, sweep.to_degrees());
     vertices.iter_mut().for_each(|v| v.bulge *= sign);
     drawn.flat_path(vertices, closed)
 }
