@@ -3,7 +3,7 @@
 
 use super::DrawingUnit;
 use crate::error::Defect;
-use crate::geom::{Point, Vector};
+use crate::geom::Point;
 use crate::tolerance::Units;
 use serde::ser::{Serialize, SerializeStruct, Serializer};
 use std::fmt;
@@ -204,7 +204,7 @@ impl Warning {
 
     /// Moves the place of something that a reader has to say, when it moves the drawing.
     #[cfg(feature = "dxf")]
-    pub(super) fn move_by(&mut self, by: Vector) {
+    pub(super) fn move_by(&mut self, by: crate::geom::Vector) {
         match self {
             Warning::EntitySkipped { at: Some(at), .. }
             | Warning::Simplified { at: Some(at), .. }
