@@ -101,9 +101,9 @@ pub mod tolerance;
 pub mod toolpath;
 pub mod verify;
 
-pub use boundary::{Curve, Pocket, Pockets, Source};
+pub use boundary::{Curve, FreeCurve, FreeShape, Pocket, Pockets, Source};
 pub use error::{Defect, Error};
-pub use geom::{ArcSpline, Bounds, Element, Point, Vector, Vertex, point, vector};
+pub use geom::{ArcSpline, Bounds, Element, Ellipse, Point, Spline, Vector, Vertex, point, vector};
 pub use mat::{AxisEdge, AxisVertex, Counts, Disk, Kind, Mat, Mismatch, Residuals, SiteKind, SiteRef};
 pub use offset::{Level, MergeTree, Part};
 pub use tolerance::{Tolerance, Units};

@@ -342,7 +342,7 @@ fn names_of_subcommands_are_kept() {
 #[test]
 fn options_of_later_versions_are_not_swallowed() {
     let desk = Desk::new(&plate());
-    for option in [["--strategy", "spiral"], ["--post", "grbl"], ["--origin", "min"], ["--job", "a.toml"]] {
+    for option in [["--strategy", "spiral"], ["--post", "grbl"], ["--job", "a.toml"]] {
         desk.refuses(&[&["part.dxf", "--step", "0.5"], &option[..]].concat(), 2, option[0]);
     }
 }

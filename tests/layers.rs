@@ -25,7 +25,7 @@ const ROOMS: [(&str, &[&str]); 10] = [
 
 /// Foreign crates with the rooms that they may appear in.
 const FOREIGN: [(&str, &[&str]); 9] = [
-    ("dxf", &["io"]),
+    ("dxf", &[]),
     ("cavalier_contours", &["verify", "convert"]),
     ("robust", &["geom", "boundary"]),
     ("geo_types", &["convert"]),

@@ -22,7 +22,7 @@ mod pocket;
 mod ray;
 mod simple;
 
-pub use curve::{Curve, Source};
+pub use curve::{Curve, FreeCurve, FreeShape, Source};
 pub use pocket::{Pocket, Pockets};
 
 #[cfg(test)]

@@ -10,4 +10,4 @@ mod units;
 mod warning;
 
 pub use units::{DrawingUnit, Scale};
-pub use warning::Warning;
+pub use warning::{Place, Warning};

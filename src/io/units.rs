@@ -178,6 +178,11 @@ impl Scale {
         })
     }
 
+    /// The same with all lengths multiplied by a factor.
+    pub fn times(self, factor: f64) -> Scale {
+        Scale { times: self.times * factor, ..self }
+    }
+
     /// A length of the drawing in the unit of the job.
     pub fn length(self, length: f64) -> f64 {
         length * self.times / self.over
@@ -213,6 +218,12 @@ mod tests {
         assert_eq!(convert(2500.0, Mil, Units::Inch), 2.5);
         assert_eq!(convert(0.1, Millimeter, Units::Mm), 0.1);
         assert_eq!(convert(3937.0, SurveyFoot, Units::Mm), 1_200_000.0);
+    }
+
+    #[test]
+    fn a_factor_comes_on_top() {
+        assert_eq!(Scale::new(Inch, Units::Mm).unwrap().times(0.5).length(2.0), 25.4);
+        assert_eq!(Scale::SAME.times(10.0).length(0.1), 1.0);
     }
 
     #[test]

@@ -8,6 +8,30 @@ use crate::tolerance::Units;
 use serde::ser::{Serialize, SerializeStruct, Serializer};
 use std::fmt;
 
+/// A place in a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// A line of a text, from 1.
+    Line(u64),
+    /// A byte of a binary file, from 0.
+    Byte(u64),
+}
+
+impl Default for Place {
+    fn default() -> Place {
+        Place::Line(0)
+    }
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Place::Line(line) => write!(f, "line {line}"),
+            Place::Byte(byte) => write!(f, "byte {byte}"),
+        }
+    }
+}
+
 /// Something that was left out, assumed or changed, with its place and its cure. Lengths are in
 /// the unit of the job.
 ///
@@ -21,8 +45,8 @@ pub enum Warning {
         entity: String,
         /// How many.
         count: usize,
-        /// Whether it may be part of an outline: a curve, not a text.
-        outline: bool,
+        /// The layer they lie on, if they may be part of an outline: curves, not texts.
+        layer: Option<String>,
     },
     /// Entities of a known kind that hold nothing usable.
     EntitySkipped {
@@ -30,12 +54,38 @@ pub enum Warning {
         entity: String,
         /// Handle of the first one, where it has one.
         handle: Option<u64>,
+        /// Where in the file the first one is wrong.
+        place: Place,
         /// What is wrong with it.
         reason: String,
         /// How many have the same fault.
         count: usize,
         /// A place of the first one, where one is known.
         at: Option<Point>,
+    },
+    /// Entities of which something does not count.
+    Simplified {
+        /// Kind of entity.
+        entity: String,
+        /// Handle of the first one, where it has one.
+        handle: Option<u64>,
+        /// Where in the file the first one stands.
+        place: Place,
+        /// What became of it.
+        how: &'static str,
+        /// How many.
+        count: usize,
+        /// A place of the first one, where one is known.
+        at: Option<Point>,
+    },
+    /// Faults in the form of a file that were put right.
+    Mended {
+        /// What was found, and how it is read.
+        what: &'static str,
+        /// How often.
+        count: usize,
+        /// Where first.
+        place: Place,
     },
     /// Entities on a layer that is off or frozen.
     LayerSkipped {
@@ -62,6 +112,33 @@ pub enum Warning {
         pattern: String,
         /// The layers with entities on them.
         layers: Vec<String>,
+    },
+    /// A color was asked for that no entity of the drawing has.
+    NoSuchColor {
+        /// What was asked for.
+        color: String,
+        /// The colors that entities have.
+        colors: Vec<String>,
+    },
+    /// The part is so large or so small that the drawing is probably in another unit.
+    ImplausibleSize {
+        /// Its width.
+        width: f64,
+        /// Its height.
+        height: f64,
+        /// The unit of the job.
+        job: Units,
+        /// The unit that the drawing was read in.
+        unit: DrawingUnit,
+        /// Whether it is too large, not too small.
+        large: bool,
+        /// Its middle.
+        at: Point,
+    },
+    /// The drawing was moved, as the user wished; all other places are told after that.
+    OriginMoved {
+        /// The place of the drawing that the origin lies at now.
+        to: Point,
     },
     /// The file breaks off.
     Truncated,
@@ -96,10 +173,15 @@ impl Warning {
         match self {
             Warning::NotRead { .. } => "not-read",
             Warning::EntitySkipped { .. } => "entity-skipped",
+            Warning::Simplified { .. } => "simplified",
+            Warning::Mended { .. } => "mended",
             Warning::LayerSkipped { .. } => "layer-skipped",
             Warning::InvisibleSkipped { .. } => "invisible-skipped",
             Warning::PaperSpaceSkipped { .. } => "paper-space-skipped",
             Warning::NoSuchLayer { .. } => "no-such-layer",
+            Warning::NoSuchColor { .. } => "no-such-color",
+            Warning::ImplausibleSize { .. } => "implausible-size",
+            Warning::OriginMoved { .. } => "origin-moved",
             Warning::Truncated => "truncated",
             Warning::UnitAssumed { .. } => "unit-assumed",
             Warning::Defect(defect) => defect_kind(defect),
@@ -111,25 +193,55 @@ impl Warning {
     /// Where in the drawing, if it has one place.
     pub fn at(&self) -> Option<Point> {
         match self {
-            Warning::EntitySkipped { at, .. } => *at,
+            Warning::EntitySkipped { at, .. } | Warning::Simplified { at, .. } => *at,
             Warning::Defect(defect) => Some(defect.at()),
-            Warning::OutlineOfPart { at } | Warning::ArcsDropped { at, .. } => Some(*at),
+            Warning::OutlineOfPart { at }
+            | Warning::ArcsDropped { at, .. }
+            | Warning::ImplausibleSize { at, .. } => Some(*at),
             _ => None,
+        }
+    }
+
+    /// Moves the place of something that a reader has to say, when it moves the drawing.
+    #[cfg(feature = "dxf")]
+    pub(super) fn move_by(&mut self, by: crate::geom::Vector) {
+        match self {
+            Warning::EntitySkipped { at: Some(at), .. }
+            | Warning::Simplified { at: Some(at), .. }
+            | Warning::ImplausibleSize { at, .. } => *at += by,
+            _ => {}
         }
     }
 
     /// What to do about it.
     pub fn help(&self) -> String {
         match self {
-            Warning::NotRead { outline: true, .. } => {
-                "explode blocks and convert curves to polylines or arcs in the drawing program".into()
+            Warning::NotRead { layer: Some(_), .. } => {
+                "if it is part of an outline: convert it to polylines or arcs in the drawing program".into()
+            }
+            Warning::NotRead { entity, .. } if entity == "HATCH" => {
+                "nothing to do, or read the boundaries of hatched areas with --hatch".into()
             }
             Warning::NotRead { .. } => "nothing to do, if it is no part of an outline".into(),
             Warning::EntitySkipped { .. } => "repair or delete it in the drawing".into(),
+            Warning::Simplified { .. } => {
+                "nothing to do, if the part is drawn as it is seen from above".into()
+            }
+            Warning::Mended { .. } => "nothing to do, if the part is complete".into(),
             Warning::LayerSkipped { .. } => "turn the layer on in the drawing, or use --hidden".into(),
             Warning::InvisibleSkipped { .. } => "make them visible in the drawing, or use --hidden".into(),
             Warning::PaperSpaceSkipped { .. } => "nothing to do, if the part is drawn in model space".into(),
             Warning::NoSuchLayer { layers, .. } => format!("layers with entities: {}", layers.join(", ")),
+            Warning::NoSuchColor { colors, .. } => format!("colors of entities: {}", colors.join(", ")),
+            Warning::ImplausibleSize { unit, large, .. } => {
+                let smaller = if *unit == DrawingUnit::Millimeter { "um" } else { "mm" };
+                let larger = if *unit == DrawingUnit::Millimeter { "m" } else { "mm" };
+                let other = if *large { smaller } else { larger };
+                format!("if that is wrong: --dxf-units {other}, or multiply it with --scale")
+            }
+            Warning::OriginMoved { .. } => {
+                "nothing to do; all places in this report and in what is written are told from there".into()
+            }
             Warning::Truncated => "save the drawing again: its end is missing".into(),
             Warning::UnitAssumed { unit, .. } => {
                 let other = if *unit == DrawingUnit::Inch { "mm" } else { "in" };
@@ -147,24 +259,37 @@ impl Warning {
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
-            Warning::NotRead { entity, count, outline: true } => write!(f, "{entity}: {count} not read yet"),
-            Warning::NotRead { entity, count, .. } => write!(f, "{entity}: {count} skipped, no outline"),
-            Warning::EntitySkipped { entity, handle, reason, count, .. } => {
-                write!(f, "{entity}")?;
-                if let Some(handle) = handle {
-                    write!(f, " {handle:X}")?;
-                }
-                if *count > 1 {
-                    write!(f, " and {} more", count - 1)?;
-                }
-                write!(f, " skipped: {reason}")
+            Warning::NotRead { entity, count, layer: Some(layer) } => {
+                write!(f, "{entity}: {count} on layer `{layer}` not read")
             }
+            Warning::NotRead { entity, count, .. } => write!(f, "{entity}: {count} skipped, no outline"),
+            Warning::EntitySkipped { entity, handle, place, reason, count, .. } => {
+                write!(
+                    f,
+                    "{} skipped: {reason}",
+                    Named { entity, handle: *handle, place: *place, count: *count }
+                )
+            }
+            Warning::Simplified { entity, handle, place, how, count, .. } => {
+                write!(f, "{}: {how}", Named { entity, handle: *handle, place: *place, count: *count })
+            }
+            Warning::Mended { what, count, place } => write!(f, "{what}: {count}, the first in {place}"),
             Warning::LayerSkipped { layer, state, count } => {
                 write!(f, "layer `{layer}` is {state}: {count} skipped")
             }
             Warning::InvisibleSkipped { count } => write!(f, "invisible entities: {count} skipped"),
             Warning::PaperSpaceSkipped { count } => write!(f, "entities of paper space: {count} skipped"),
             Warning::NoSuchLayer { pattern, .. } => write!(f, "no entity lies on a layer `{pattern}`"),
+            Warning::NoSuchColor { color, .. } => write!(f, "no entity has the color {color}"),
+            Warning::ImplausibleSize { width, height, job, unit, large, .. } => {
+                let job = DrawingUnit::from(*job);
+                let size = if *large { "large" } else { "small" };
+                write!(
+                    f,
+                    "the part is {width:.6} by {height:.6} {job}, which is very {size}; the drawing is read in {unit}"
+                )
+            }
+            Warning::OriginMoved { to } => write!(f, "the origin is moved to {to} of the drawing"),
             Warning::Truncated => write!(f, "the file ends without its end mark"),
             Warning::UnitAssumed { unit, flagged: true, .. } => {
                 write!(f, "the drawing does not say its unit; {unit} assumed after its measurement flag")
@@ -180,6 +305,25 @@ impl fmt::Display for Warning {
                 write!(f, "{count} arcs are shorter than the last decimal and were dropped")
             }
         }
+    }
+}
+
+/// An entity and how many are like it.
+struct Named<'a> {
+    entity: &'a str,
+    handle: Option<u64>,
+    place: Place,
+    count: usize,
+}
+
+impl fmt::Display for Named<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "{}", self.entity)?;
+        if let Some(handle) = self.handle {
+            write!(f, " {handle:X}")?;
+        }
+        write!(f, " ({})", self.place)?;
+        if self.count > 1 { write!(f, " and {} more", self.count - 1) } else { Ok(()) }
     }
 }
 
@@ -253,11 +397,12 @@ mod tests {
         let warning = Warning::EntitySkipped {
             entity: "CIRCLE".into(),
             handle: Some(0x2A),
+            place: Place::Line(120),
             reason: "its radius is 0".into(),
             count: 3,
             at: Some(point(4.0, 5.5)),
         };
-        assert_eq!(warning.to_string(), "CIRCLE 2A and 2 more skipped: its radius is 0");
+        assert_eq!(warning.to_string(), "CIRCLE 2A (line 120) and 2 more skipped: its radius is 0");
         let json = serde_json::to_value(&warning).unwrap();
         assert_eq!(json["kind"], "entity-skipped");
         assert_eq!(json["at"], serde_json::json!([4.0, 5.5]));

@@ -2,6 +2,7 @@
 
 use crate::length::{Length, Step, above_0, at_least_0, number_above_0, number_at_least_0, slope, step};
 use clap::{Parser, ValueEnum};
+use medial::io::dxf::Color;
 use std::path::PathBuf;
 
 /// Tool paths for pockets, from a DXF drawing through the exact medial axis.
@@ -140,6 +141,16 @@ pub struct Args {
     #[arg(long, value_name = "UNIT", help_heading = "Drawing")]
     pub dxf_units: Option<String>,
 
+    /// Factor for all coordinates of the drawing
+    #[arg(long, value_name = "FACTOR", value_parser = number_above_0, default_value = "1", help_heading = "Drawing")]
+    pub scale: f64,
+
+    /// Where the origin lies: as drawn, or at the lower left corner or the center of all curves
+    ///
+    /// Everything that is written, and every place in the report, is told from there.
+    #[arg(long, value_enum, default_value_t, help_heading = "Drawing")]
+    pub origin: OriginArg,
+
     /// Largest distance between drawn curve and arc spline [default: 0.001 mm, 0.00004 in]
     #[arg(long, value_name = "LENGTH", value_parser = above_0, help_heading = "Drawing")]
     pub tolerance: Option<Length>,
@@ -166,9 +177,19 @@ pub struct Args {
     #[arg(long = "skip-layer", value_name = "NAME", help_heading = "Drawing")]
     pub skip_layers: Vec<String>,
 
+    /// Color to read, a number of the AutoCAD index or red, yellow, green ...; repeatable [default: all]
+    ///
+    /// An entity that has the color of its layer or its block counts with that.
+    #[arg(long = "color", value_name = "COLOR", help_heading = "Drawing")]
+    pub colors: Vec<Color>,
+
     /// Read layers that are off or frozen too
     #[arg(long, help_heading = "Drawing")]
     pub hidden: bool,
+
+    /// Read the boundaries of hatched areas too
+    #[arg(long, help_heading = "Drawing")]
+    pub hatch: bool,
 
     /// Controller that the program is for
     #[arg(long, value_enum, default_value_t, help_heading = "Program")]
@@ -276,6 +297,15 @@ pub enum CoolantArg {
 pub enum UnitsArg {
     Mm,
     In,
+}
+
+/// `--origin`.
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+pub enum OriginArg {
+    #[default]
+    Dxf,
+    Min,
+    Center,
 }
 
 /// `--post`.

@@ -45,7 +45,9 @@ fn help(error: &Error) -> Option<String> {
         Error::NothingToMachine { .. } => "see the warnings above, or take a smaller tool: --tool, --stock",
         Error::Defects(defects) => return defects.first().map(medial::Defect::help),
         Error::Parameter { name, .. } => return Some(format!("see --{name} in pocket --help")),
-        Error::Effort { .. } => "take a larger step, step-down or ramp angle",
+        Error::Effort { .. } => {
+            "take a larger step, step-down or ramp angle, or a smaller part of the drawing: --layer"
+        }
         _ => return None,
     };
     Some(text.to_owned())

@@ -1,12 +1,12 @@
 //! What the command line means, once the unit of the job is known.
 
 use crate::args::{
-    ArcsArg, Args, CoolantArg, DirectionArg, EntryArg, PostArg, StartArg, StrategyArg, UnitsArg,
+    ArcsArg, Args, CoolantArg, DirectionArg, EntryArg, OriginArg, PostArg, StartArg, StrategyArg, UnitsArg,
 };
 use crate::failure::Failure;
 use crate::length::{Length, Step};
 use crate::notice::short;
-use medial::io::dxf::ReadOptions;
+use medial::io::dxf::{Origin, ReadOptions};
 use medial::io::gcode::{ArcWords, Coolant, Setup};
 use medial::toolpath::{Direction, Entry, Job, Start, Strategy};
 use medial::{Tolerance, Units};
@@ -29,9 +29,17 @@ impl Args {
                 UnitsArg::In => Units::Inch,
             }),
             dxf_units,
+            scale: self.scale,
             layers: self.layers.clone(),
             skip_layers: self.skip_layers.clone(),
+            colors: self.colors.clone(),
             hidden: self.hidden,
+            hatch: self.hatch,
+            origin: match self.origin {
+                OriginArg::Dxf => Origin::Dxf,
+                OriginArg::Min => Origin::Min,
+                OriginArg::Center => Origin::Center,
+            },
         })
     }
 

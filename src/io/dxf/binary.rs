@@ -1,41 +1,27 @@
-//! Binary DXF as text DXF, so that there is one reader for both.
+//! Binary DXF as tags.
 //!
-//! A pair is a group code and a value whose form follows from the code. The code takes two bytes;
+//! A group is a code and a value whose form follows from the code. The code takes two bytes;
 //! before release 13 it took one, or 255 and two.
 
-/// How a binary DXF begins; a line end, 1A and 00 follow.
-const SENTINEL: &[u8] = b"AutoCAD Binary DXF";
+use super::buffer::Buffer;
+use super::tags::{Broken, Tag, Value};
+use crate::io::Place;
+use std::io;
+
+/// How a binary DXF begins.
+const SENTINEL: &[u8] = b"AutoCAD Binary DXF\r\n\x1A\0";
 
 /// Whether the bytes begin as a binary DXF does.
 pub(super) fn is_binary(bytes: &[u8]) -> bool {
     bytes.starts_with(SENTINEL)
 }
 
-/// The same pairs as text; what follows a broken pair is lost, and with it the end mark. Pairs of
-/// raw bytes, such as previews, are left out.
-///
-/// # Errors
-///
-/// The place of a group code that the format does not know.
-pub(super) fn to_text(bytes: &[u8]) -> Result<Vec<u8>, String> {
-    let rest = bytes.strip_prefix(SENTINEL).unwrap_or(bytes);
-    let rest = rest.strip_prefix(b"\r").unwrap_or(rest);
-    let rest = rest.strip_prefix(b"\n\x1A\0").ok_or("it says to be binary, but does not begin so")?;
-    // The first pair is 0 and a name, so that a second 0 belongs to the code.
-    let mut pairs = Pairs { rest, wide: rest.get(1) == Some(&0) };
-    let mut text = Vec::with_capacity(bytes.len());
-    while let Some(code) = pairs.code() {
-        let form = Form::of(code).ok_or_else(|| {
-            format!("byte {} holds group code {code}, which is none", bytes.len() - pairs.rest.len())
-        })?;
-        let Some(value) = pairs.value(form) else { break };
-        if form != Form::Bytes {
-            text.extend_from_slice(format!("{code}\n").as_bytes());
-            text.extend(value.into_iter().map(|b| if matches!(b, b'\r' | b'\n') { b' ' } else { b }));
-            text.push(b'\n');
-        }
-    }
-    Ok(text)
+/// The tags of a binary file. What follows a broken one is lost. Raw bytes, such as previews, are
+/// left out.
+pub(super) struct BinaryTags<'a> {
+    buffer: Buffer<'a>,
+    /// Whether group codes take two bytes.
+    wide: bool,
 }
 
 /// Form of a value.
@@ -66,59 +52,112 @@ impl Form {
     }
 }
 
-struct Pairs<'a> {
-    rest: &'a [u8],
-    /// Whether group codes take two bytes.
-    wide: bool,
-}
+impl<'a> BinaryTags<'a> {
+    /// As many bytes tell that it is one, and how wide its codes are.
+    pub const HEAD: usize = SENTINEL.len() + 2;
 
-impl Pairs<'_> {
-    fn code(&mut self) -> Option<u16> {
+    /// Begins behind the sentinel, which the buffer holds.
+    pub fn new(mut buffer: Buffer<'a>) -> BinaryTags<'a> {
+        buffer.pass(SENTINEL.len());
+        // The first group is 0 and a name, so that a second 0 belongs to the code.
+        let wide = buffer.rest().get(1) == Some(&0);
+        BinaryTags { buffer, wide }
+    }
+
+    /// The next tag; `None` at the end.
+    pub fn next(&mut self) -> Result<Option<Tag<'_>>, Broken> {
+        loop {
+            let place = Place::Byte(self.buffer.passed());
+            let Some(code) = self.code()? else { return Ok(None) };
+            let Some(form) = Form::of(code) else {
+                return Err(Broken::Code { place, found: code.to_string() });
+            };
+            let code = i32::from(code);
+            let value = match form {
+                Form::Bytes => {
+                    if self.bytes()?.is_none() {
+                        return Ok(None);
+                    }
+                    continue;
+                }
+                Form::Text => {
+                    let Some(length) = self.text_length()? else { return Ok(None) };
+                    let text = self.buffer.pass(length);
+                    self.buffer.pass(1);
+                    Value::Text(self.buffer.at(text).trim_ascii())
+                }
+                _ => match self.number(form)? {
+                    Some(number) => Value::Number(number),
+                    None => return Ok(None),
+                },
+            };
+            return Ok(Some(Tag { code, value, place }));
+        }
+    }
+
+    fn code(&mut self) -> io::Result<Option<u16>> {
         if self.wide {
-            return self.take().map(u16::from_le_bytes);
+            return Ok(self.take()?.map(u16::from_le_bytes));
         }
-        match self.take()? {
-            [255] => self.take().map(u16::from_le_bytes),
-            [code] => Some(code.into()),
+        Ok(match self.take()? {
+            Some([255]) => self.take()?.map(u16::from_le_bytes),
+            Some([code]) => Some(code.into()),
+            None => None,
+        })
+    }
+
+    fn number(&mut self, form: Form) -> io::Result<Option<f64>> {
+        Ok(match form {
+            Form::Double => self.take()?.map(f64::from_le_bytes),
+            Form::Int8 => self.take()?.map(|b| i8::from_le_bytes(b).into()),
+            Form::Int16 => self.take()?.map(|b| i16::from_le_bytes(b).into()),
+            Form::Int32 => self.take()?.map(|b| i32::from_le_bytes(b).into()),
+            // No number of this size takes part in the geometry.
+            Form::Int64 => self.take()?.map(|b| i64::from_le_bytes(b) as f64),
+            Form::Text | Form::Bytes => None,
+        })
+    }
+
+    /// Length of the text that comes next, which ends in a NUL byte.
+    fn text_length(&mut self) -> io::Result<Option<usize>> {
+        let mut looked = 0;
+        loop {
+            if let Some(i) = self.buffer.rest()[looked..].iter().position(|&b| b == 0) {
+                return Ok(Some(looked + i));
+            }
+            looked = self.buffer.rest().len();
+            if !self.buffer.more()? {
+                return Ok(None);
+            }
         }
     }
 
-    /// The next value as text; `None` if the file ends in it.
-    fn value(&mut self, form: Form) -> Option<Vec<u8>> {
-        let text = match form {
-            Form::Text => {
-                let end = self.rest.iter().position(|&b| b == 0)?;
-                let text = self.rest[..end].to_vec();
-                self.rest = &self.rest[end + 1..];
-                return Some(text);
-            }
-            Form::Bytes => {
-                let [length] = self.take()?;
-                self.rest = self.rest.get(usize::from(length)..)?;
-                return Some(Vec::new());
-            }
-            Form::Double => f64::from_le_bytes(self.take()?).to_string(),
-            Form::Int8 => i8::from_le_bytes(self.take()?).to_string(),
-            Form::Int16 => i16::from_le_bytes(self.take()?).to_string(),
-            Form::Int32 => i32::from_le_bytes(self.take()?).to_string(),
-            Form::Int64 => i64::from_le_bytes(self.take()?).to_string(),
-        };
-        Some(text.into_bytes())
+    /// Passes raw bytes.
+    fn bytes(&mut self) -> io::Result<Option<()>> {
+        let Some([length]) = self.take()? else { return Ok(None) };
+        if !self.buffer.has(length.into())? {
+            return Ok(None);
+        }
+        self.buffer.pass(length.into());
+        Ok(Some(()))
     }
 
-    fn take<const N: usize>(&mut self) -> Option<[u8; N]> {
-        let (taken, rest) = self.rest.split_first_chunk()?;
-        self.rest = rest;
-        Some(*taken)
+    fn take<const N: usize>(&mut self) -> io::Result<Option<[u8; N]>> {
+        if !self.buffer.has(N)? {
+            return Ok(None);
+        }
+        let range = self.buffer.pass(N);
+        Ok(self.buffer.at(range).first_chunk().copied())
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::tags::Tags;
     use super::*;
 
     fn line(code: impl Fn(u16) -> Vec<u8>) -> Vec<u8> {
-        let mut bytes = b"AutoCAD Binary DXF\r\n\x1A\0".to_vec();
+        let mut bytes = SENTINEL.to_vec();
         for (number, value) in [(0, "LINE"), (8, "Cut\nhere")] {
             bytes.extend([code(number), value.into(), vec![0]].concat());
         }
@@ -132,32 +171,48 @@ mod tests {
         code.to_le_bytes().to_vec()
     }
 
-    const TEXT: &str = "0\nLINE\n8\nCut here\n10\n0.1\n70\n-7\n";
+    fn all(mut bytes: &[u8]) -> Result<Vec<String>, String> {
+        let mut tags = Tags::new(Buffer::new(&mut bytes)).unwrap();
+        let mut found = Vec::new();
+        loop {
+            match tags.next() {
+                Ok(None) => return Ok(found),
+                Ok(Some(tag)) => found.push(match tag.value {
+                    Value::Text(text) => format!("{} {}", tag.code, String::from_utf8_lossy(text)),
+                    Value::Number(number) => format!("{} {number}", tag.code),
+                }),
+                Err(Broken::Code { place, found }) => return Err(format!("{place}: {found}")),
+                Err(Broken::Io(e)) => panic!("{e}"),
+            }
+        }
+    }
+
+    const TAGS: [&str; 4] = ["0 LINE", "8 Cut\nhere", "10 0.1", "70 -7"];
 
     #[test]
-    fn codes_of_two_bytes_and_of_one_give_the_same_text() {
+    fn codes_of_two_bytes_and_of_one_give_the_same_tags() {
         let narrow = |code: u16| if code < 255 { vec![code as u8] } else { [vec![255], wide(code)].concat() };
         for bytes in [line(wide), line(narrow)] {
             assert!(is_binary(&bytes));
-            assert_eq!(String::from_utf8(to_text(&bytes).unwrap()).unwrap(), TEXT);
+            assert_eq!(all(&bytes).unwrap(), TAGS);
         }
     }
 
     #[test]
-    fn a_pair_that_is_cut_off_is_left_out() {
+    fn a_group_that_is_cut_off_is_left_out() {
         let bytes = line(wide);
-        for cut in 22..bytes.len() {
-            let text = String::from_utf8(to_text(&bytes[..cut]).unwrap()).unwrap();
-            assert!(TEXT.starts_with(&text) && text.len() < TEXT.len());
+        for cut in SENTINEL.len()..bytes.len() {
+            let found = all(&bytes[..cut]).unwrap();
+            assert!(found.len() < TAGS.len() && TAGS.map(String::from).starts_with(&found));
         }
     }
 
     #[test]
     fn a_code_that_is_none_is_named_with_its_place() {
         let mut bytes = line(wide);
-        bytes.extend(wide(500));
         let place = bytes.len();
-        assert_eq!(to_text(&bytes), Err(format!("byte {place} holds group code 500, which is none")));
-        assert!(to_text(b"AutoCAD Binary DXF").is_err());
+        bytes.extend(wide(500));
+        assert_eq!(all(&bytes), Err(format!("byte {place}: 500")));
+        assert!(!is_binary(b"AutoCAD Binary DXF"));
     }
 }

@@ -1,6 +1,8 @@
 //! What is read from a file, and what a caller may ask for.
 
-use crate::boundary::Curve;
+use super::Color;
+use crate::boundary::{Curve, FreeCurve, FreeShape};
+use crate::geom::{Bounds, Point, Vector, point};
 use crate::io::{DrawingUnit, Warning};
 use crate::tolerance::Units;
 use serde::Serialize;
@@ -12,24 +14,100 @@ pub struct Drawing {
     pub name: String,
     /// The unit of the job, in which all coordinates are.
     pub units: Units,
-    /// The curves in the order of the file.
+    /// The curves of segments and arcs in the order of the file; those of blocks come last.
     pub curves: Vec<Curve>,
-    /// What was left out or assumed.
+    /// Ellipses and splines, in the same order.
+    pub free: Vec<FreeCurve>,
+    /// The place of the drawing that the origin was moved to, and that all places are told from;
+    /// `(0, 0)` unless [`ReadOptions::origin`] asks for another.
+    pub origin: Point,
+    /// What was left out, assumed or mended.
     pub warnings: Vec<Warning>,
 }
 
 /// What of a drawing to read, and how.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct ReadOptions {
     /// The unit of the job; `None` takes inches for a drawing in inches, mils, feet or yards and
     /// millimeters for any other.
     pub units: Option<Units>,
     /// The unit that the drawing is in, whatever it claims.
     pub dxf_units: Option<DrawingUnit>,
+    /// A factor for all coordinates, above 0.
+    pub scale: f64,
     /// Names of the layers to read, with `*` for anything; all if empty.
     pub layers: Vec<String>,
     /// Names of layers to leave out, with `*` for anything.
     pub skip_layers: Vec<String>,
+    /// Colors to read; all if empty. An entity may have the color of its layer or its block.
+    pub colors: Vec<Color>,
     /// Whether to read layers that are off or frozen, and invisible entities.
     pub hidden: bool,
+    /// Whether to read the boundaries of hatched areas.
+    pub hatch: bool,
+    /// Where the origin of the job lies.
+    pub origin: Origin,
+}
+
+impl Default for ReadOptions {
+    fn default() -> ReadOptions {
+        ReadOptions {
+            units: None,
+            dxf_units: None,
+            scale: 1.0,
+            layers: Vec::new(),
+            skip_layers: Vec::new(),
+            colors: Vec::new(),
+            hidden: false,
+            hatch: false,
+            origin: Origin::Dxf,
+        }
+    }
+}
+
+/// Where the origin of the job lies in the drawing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Origin {
+    /// Where the drawing has it.
+    #[default]
+    Dxf,
+    /// At the lower left corner of the box around all curves that were read.
+    Min,
+    /// At the center of that box.
+    Center,
+}
+
+impl Drawing {
+    /// The box around all curves of segments and arcs.
+    pub fn bounds(&self) -> Bounds {
+        self.curves.iter().fold(Bounds::EMPTY, |b, c| b.union(c.path.bounds()))
+    }
+
+    /// Moves all curves and the places of all warnings so that the origin lies where it is wanted.
+    pub(super) fn move_origin(&mut self, origin: Origin) {
+        let bounds = self.bounds();
+        let to = match origin {
+            _ if bounds.is_empty() => return,
+            Origin::Dxf => return,
+            Origin::Min => bounds.min,
+            Origin::Center => bounds.center(),
+        };
+        let by = point(0.0, 0.0) - to;
+        self.origin = to;
+        for vertex in self.curves.iter_mut().flat_map(|c| &mut c.path.vertices) {
+            vertex.point += by;
+        }
+        self.free.iter_mut().for_each(|free| move_free(free, by));
+        self.warnings.iter_mut().for_each(|warning| warning.move_by(by));
+        self.warnings.push(Warning::OriginMoved { to });
+    }
+}
+
+fn move_free(free: &mut FreeCurve, by: Vector) {
+    match &mut free.shape {
+        FreeShape::Ellipse(ellipse) => ellipse.center += by,
+        FreeShape::Spline(spline) => {
+            spline.control.iter_mut().chain(&mut spline.fit).for_each(|p| *p += by);
+        }
+    }
 }

@@ -1,74 +1,136 @@
 //! Which entities take part.
 
-use super::ReadOptions;
-use super::records::{Contents, Record};
+use super::layers::Layers;
+use super::names::{Name, Names};
+use super::{Color, ReadOptions};
 use crate::io::Warning;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Selects entities by layer and state, and counts those that the drawing itself hides.
+/// What of an entity decides whether it takes part, when layer and color are known that it has
+/// in its place.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Trait {
+    pub layer: Name,
+    pub color: i16,
+    pub paper: bool,
+    pub invisible: bool,
+}
+
+/// Whether the entities of a layer take part.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum State {
+    Wanted,
+    Unwanted,
+    Hidden(&'static str),
+}
+
+/// Selects entities by layer, color and state, and counts those that the drawing itself hides.
 pub(super) struct Selection<'a> {
     options: &'a ReadOptions,
-    /// Layers that are off or frozen, by name in lower case.
-    hidden: BTreeMap<String, &'static str>,
-    skipped: BTreeMap<(String, &'static str), usize>,
+    /// Of each layer that was met, by its name.
+    states: BTreeMap<Name, State>,
+    colors: BTreeSet<Color>,
+    hidden: BTreeMap<(String, &'static str), usize>,
     invisible: usize,
     paper: usize,
-    met: BTreeSet<String>,
 }
 
 impl<'a> Selection<'a> {
-    pub fn new(options: &'a ReadOptions, contents: &Contents) -> Selection<'a> {
-        let state = |off: bool, frozen: bool| if frozen { Some("frozen") } else { off.then_some("off") };
-        let hidden = contents
-            .layers
-            .iter()
-            .filter_map(|l| Some((l.name.to_lowercase(), state(l.off, l.frozen)?)))
-            .collect();
-        Selection { options, hidden, skipped: BTreeMap::new(), invisible: 0, paper: 0, met: BTreeSet::new() }
+    pub fn new(options: &'a ReadOptions) -> Selection<'a> {
+        Selection {
+            options,
+            states: BTreeMap::new(),
+            colors: BTreeSet::new(),
+            hidden: BTreeMap::new(),
+            invisible: 0,
+            paper: 0,
+        }
     }
 
     /// Whether an entity takes part.
-    pub fn takes(&mut self, record: &Record) -> bool {
-        if record.paper {
-            self.paper += 1;
+    pub fn takes(&mut self, entity: Trait, layers: &Layers, names: &Names) -> bool {
+        if self.is_on_paper(entity) {
             return false;
         }
-        if !self.met.contains(&record.layer) {
-            self.met.insert(record.layer.clone());
+        let options = self.options;
+        let state = *self.states.entry(entity.layer).or_insert_with(|| {
+            let name = names.text(entity.layer);
+            let layer = layers.get(name);
+            let named = |patterns: &[String]| patterns.iter().any(|p| matches(p, name));
+            if named(&options.skip_layers) || !(options.layers.is_empty() || named(&options.layers)) {
+                State::Unwanted
+            } else if layer.frozen {
+                State::Hidden("frozen")
+            } else if layer.off {
+                State::Hidden("off")
+            } else {
+                State::Wanted
+            }
+        });
+        let color = Color::new(entity.color.into());
+        self.colors.extend(color);
+        let colored = options.colors.is_empty() || color.is_some_and(|c| options.colors.contains(&c));
+        match state {
+            State::Unwanted => false,
+            _ if !colored => false,
+            State::Hidden(state) if !options.hidden => {
+                self.hide(names.text(entity.layer), state);
+                false
+            }
+            _ => self.is_seen(entity),
         }
-        let named = |patterns: &[String]| patterns.iter().any(|p| matches(p, &record.layer));
-        if named(&self.options.skip_layers)
-            || !(self.options.layers.is_empty() || named(&self.options.layers))
-        {
+    }
+
+    /// Whether what a block holds is to be looked at: a frozen layer hides all of it.
+    pub fn enters(&mut self, insert: Trait, layers: &Layers, names: &Names) -> bool {
+        if self.is_on_paper(insert) {
             return false;
         }
-        if self.options.hidden {
-            return true;
-        }
-        if let Some(&state) = self.hidden.get(&record.layer.to_lowercase()) {
-            *self.skipped.entry((record.layer.clone(), state)).or_default() += 1;
+        let name = names.text(insert.layer);
+        if layers.get(name).frozen && !self.options.hidden {
+            self.hide(name, "frozen");
             return false;
         }
-        self.invisible += usize::from(record.invisible);
-        !record.invisible
+        self.is_seen(insert)
+    }
+
+    fn is_on_paper(&mut self, entity: Trait) -> bool {
+        self.paper += usize::from(entity.paper);
+        entity.paper
+    }
+
+    fn is_seen(&mut self, entity: Trait) -> bool {
+        let hidden = entity.invisible && !self.options.hidden;
+        self.invisible += usize::from(hidden);
+        !hidden
+    }
+
+    fn hide(&mut self, layer: &str, state: &'static str) {
+        *self.hidden.entry((layer.to_owned(), state)).or_default() += 1;
     }
 
     /// What was hidden, and which wishes met nothing.
-    pub fn warnings(self) -> impl Iterator<Item = Warning> {
-        let Selection { options, skipped, invisible, paper, met, .. } = self;
-        let all: Vec<String> = met.into_iter().collect();
-        let unmet = options
-            .layers
+    pub fn warnings(self, names: &Names) -> impl Iterator<Item = Warning> {
+        let Selection { options, states, colors, hidden, invisible, paper } = self;
+        let layers: BTreeSet<String> = states.keys().map(|&name| names.text(name).to_string()).collect();
+        let layers: Vec<String> = layers.into_iter().collect();
+        let colors: Vec<String> = colors.iter().map(Color::to_string).collect();
+        let unmet_layers = options.layers.iter().chain(&options.skip_layers);
+        let unmet_layers = unmet_layers
+            .filter(|&pattern| !layers.iter().any(|layer| matches(pattern, layer)))
+            .map(|pattern| Warning::NoSuchLayer { pattern: pattern.clone(), layers: layers.clone() });
+        let unmet_colors = options
+            .colors
             .iter()
-            .chain(&options.skip_layers)
-            .filter(|&pattern| !all.iter().any(|layer| matches(pattern, layer)))
-            .map(|pattern| Warning::NoSuchLayer { pattern: pattern.clone(), layers: all.clone() })
-            .collect::<Vec<_>>();
-        let skipped =
-            skipped.into_iter().map(|((layer, state), count)| Warning::LayerSkipped { layer, state, count });
+            .map(Color::to_string)
+            .filter(|color| !colors.contains(color))
+            .map(|color| Warning::NoSuchColor { color, colors: colors.clone() });
+        let unmet: Vec<Warning> = unmet_layers.chain(unmet_colors).collect();
+        let hidden =
+            hidden.into_iter().map(|((layer, state), count)| Warning::LayerSkipped { layer, state, count });
         let invisible = (invisible > 0).then_some(Warning::InvisibleSkipped { count: invisible });
         let paper = (paper > 0).then_some(Warning::PaperSpaceSkipped { count: paper });
-        unmet.into_iter().chain(skipped).chain(invisible).chain(paper)
+        unmet.into_iter().chain(hidden).chain(invisible).chain(paper)
     }
 }
 
@@ -95,7 +157,6 @@ fn matches(pattern: &str, name: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::records::Layer;
     use super::*;
 
     #[test]
@@ -116,42 +177,16 @@ mod tests {
         }
     }
 
-    fn on(layer: &str) -> Record {
-        Record { layer: layer.into(), ..Record::default() }
-    }
-
-    #[test]
-    fn hidden_entities_are_counted_and_come_on_demand() {
-        let layer = |name: &str, off, frozen| Layer { name: name.into(), off, frozen };
-        let contents = Contents {
-            layers: vec![layer("Off", true, false), layer("Cold", true, true)],
-            ..Contents::default()
-        };
-        let records = [
-            on("0"),
-            on("OFF"),
-            on("cold"),
-            Record { invisible: true, ..on("0") },
-            Record { paper: true, ..on("0") },
-        ];
-        let options = ReadOptions::default();
-        let mut selection = Selection::new(&options, &contents);
-        let taken: Vec<bool> = records.iter().map(|r| selection.takes(r)).collect();
-        assert_eq!(taken, [true, false, false, false, false]);
-        let warnings: Vec<_> = selection.warnings().collect();
-        assert_eq!(
-            warnings,
-            [
-                Warning::LayerSkipped { layer: "OFF".into(), state: "off", count: 1 },
-                Warning::LayerSkipped { layer: "cold".into(), state: "frozen", count: 1 },
-                Warning::InvisibleSkipped { count: 1 },
-                Warning::PaperSpaceSkipped { count: 1 },
-            ]
-        );
-        let options = ReadOptions { hidden: true, ..ReadOptions::default() };
-        let mut selection = Selection::new(&options, &contents);
-        let taken: Vec<bool> = records.iter().map(|r| selection.takes(r)).collect();
-        assert_eq!(taken, [true, true, true, true, false]);
+    fn taken(options: &ReadOptions, entities: &[(&str, i16)]) -> (Vec<bool>, Vec<Warning>) {
+        let (mut names, mut selection) = (Names::default(), Selection::new(options));
+        let taken = entities
+            .iter()
+            .map(|&(layer, color)| {
+                let layer = names.number(layer.as_bytes());
+                selection.takes(Trait { layer, color, ..Trait::default() }, &Layers::default(), &names)
+            })
+            .collect();
+        (taken, selection.warnings(&names).collect())
     }
 
     #[test]
@@ -161,11 +196,19 @@ mod tests {
             skip_layers: vec!["*old".into()],
             ..ReadOptions::default()
         };
-        let mut selection = Selection::new(&options, &Contents::default());
-        let taken: Vec<bool> = ["0", "CUT 1", "cut old"].iter().map(|l| selection.takes(&on(l))).collect();
+        let (taken, warnings) = taken(&options, &[("0", 7), ("CUT 1", 7), ("cut old", 7)]);
         assert_eq!(taken, [false, true, false]);
         let layers = ["0", "CUT 1", "cut old"].map(String::from).to_vec();
-        let warnings: Vec<_> = selection.warnings().collect();
         assert_eq!(warnings, [Warning::NoSuchLayer { pattern: "glue".into(), layers }]);
+    }
+
+    #[test]
+    fn a_color_that_nothing_has_is_named() {
+        let colors = ["red", "30"].map(|c| c.parse().unwrap()).to_vec();
+        let options = ReadOptions { colors, ..ReadOptions::default() };
+        let (taken, warnings) = taken(&options, &[("0", 7), ("0", 1), ("0", 0), ("0", 1)]);
+        assert_eq!(taken, [false, true, false, true]);
+        let colors = ["red", "white"].map(String::from).to_vec();
+        assert_eq!(warnings, [Warning::NoSuchColor { color: "30".into(), colors }]);
     }
 }

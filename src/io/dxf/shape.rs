@@ -1,319 +1,296 @@
-//! Entities as arc splines in job units.
+//! Entities as curves in job units, seen from above.
 //!
-//! **Guarantees** that what comes out is finite and has a length, and that round numbers stay
-//! exact: an arc from 0 to 90 degrees ends where a line does that is drawn to the same place.
-//! **Does not** read what lies in a mirrored or tilted coordinate system: a place in it is not
-//! where it seems to be.
+//! **Guarantees** that what comes out is finite and has a length, that round numbers stay exact
+//! (an arc from 0 to 90 degrees ends where a line does that is drawn to the same place), and that
+//! what is no chain of segments and arcs is handed on as it was drawn. **Does not** look at
+//! heights: what lies above or below the plane of the drawing, or tilted, is noted and flattened.
 
-use crate::geom::{ArcSpline, Point, Vector, Vertex, point, vector};
+use super::hatch::hatch;
+use super::placement::{Placement, Plane, Roundness};
+use super::polyline::{light_polyline, polyline};
+use super::record::{Kind, Numbers, Record};
+use super::round::{arc, circle, ellipse, line};
+use super::spline::spline;
+use crate::boundary::FreeShape;
+use crate::geom::{ArcSpline, Element, Ellipse, Point, Vertex};
 use crate::io::Scale;
-use ::dxf::entities::{Arc, Circle, EntityType, Line, LwPolyline, Polyline};
 
 /// Largest coordinate and radius, in job units. Beyond it doubles are more than 0.0001 apart, and
 /// nothing on a machine is a million kilometers long.
-const LARGEST: f64 = 1e12;
+pub(super) const LARGEST: f64 = 1e12;
 
-/// Tilt of an extrusion direction that is round-off of its three numbers: one rounding each when
-/// it was made a unit vector, and one when it was written.
-const TILT: f64 = 4.0 * f64::EPSILON;
+/// Flattest ellipse, as a ratio of its axes, as the DXF reference has it; what is flatter is a
+/// circle seen from its edge.
+const FLATTEST: f64 = 1e-6;
 
 /// Why an entity gives no curve.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Skip {
-    /// Its kind is not read.
+    /// Its kind is not read, or a form of it.
     NotRead(&'static str),
-    /// What is wrong with it, and a place of it where one is known.
-    Fault(String, Option<Point>),
+    /// What is wrong with it.
+    Fault(String),
 }
 
-/// The curve that an entity draws.
-pub(super) fn shape(entity: &EntityType, scale: Scale) -> Result<ArcSpline, Skip> {
-    match entity {
-        EntityType::Line(e) => line(e, scale),
-        EntityType::Arc(e) => arc(e, scale),
-        EntityType::Circle(e) => circle(e, scale),
-        EntityType::LwPolyline(e) => light_polyline(e, scale),
-        EntityType::Polyline(e) => polyline(e, scale),
-        _ => Err(Skip::NotRead("")),
+impl Skip {
+    /// Something is wrong with it.
+    pub fn fault<T>(reason: &str) -> Result<T, Skip> {
+        Err(Skip::Fault(reason.into()))
     }
 }
 
-/// Lines are drawn in the coordinates of the world, whatever their extrusion direction is.
-fn line(e: &Line, scale: Scale) -> Result<ArcSpline, Skip> {
-    let place = |p: &::dxf::Point| at(p.x, p.y, scale);
-    let ends = [place(&e.p1), place(&e.p2)];
-    polygon(ends.map(|point| Vertex { point, bulge: 0.0 }).to_vec(), false)
+/// A curve.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Shape {
+    Path(ArcSpline),
+    Free(FreeShape),
 }
 
-fn circle(e: &Circle, scale: Scale) -> Result<ArcSpline, Skip> {
-    upright(&e.normal, ["CIRCLE, mirrored", "CIRCLE, tilted"])?;
-    let (center, radius) = round(&e.center, e.radius, scale)?;
-    Ok(ArcSpline::circle(center, radius))
+/// What one entity draws, and what was made simpler.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Drawn {
+    pub shapes: Vec<Shape>,
+    /// Its height or thickness was ignored.
+    pub raised: bool,
+    /// It was projected.
+    pub tilted: bool,
+    /// Its width was ignored.
+    pub wide: bool,
+    /// It has another number of vertices than it says.
+    pub miscounted: bool,
 }
 
-fn arc(e: &Arc, scale: Scale) -> Result<ArcSpline, Skip> {
-    upright(&e.normal, ["ARC, mirrored", "ARC, tilted"])?;
-    let (center, radius) = round(&e.center, e.radius, scale)?;
-    if !(e.start_angle.is_finite() && e.end_angle.is_finite()) {
-        return Err(Skip::Fault("an angle is not a finite number".into(), Some(center)));
-    }
-    let (start, end) = (e.start_angle.rem_euclid(360.0), e.end_angle.rem_euclid(360.0));
-    let turn = if e.start_angle == e.end_angle {
-        return Err(Skip::Fault("it begins and ends at the same angle".into(), Some(center)));
-    } else if start < end {
-        end - start
-    } else {
-        // The larger angle goes first, so that equal angles leave a full turn.
-        360.0 - (start - end)
-    };
-    let on_circle = |angle: f64| center + direction(angle) * radius;
-    let vertex = |angle: f64, bulge: f64| Vertex { point: on_circle(angle), bulge };
-    let half = 0.5 * turn;
-    let vertices = if turn == 360.0 {
-        let opposite = center + (center - on_circle(start));
-        return polygon(vec![vertex(start, 1.0), Vertex { point: opposite, bulge: 1.0 }], true);
-    } else if turn <= 180.0 {
-        vec![vertex(start, bulge(turn)), vertex(end, 0.0)]
-    } else {
-        vec![vertex(start, bulge(half)), vertex(start + half, bulge(half)), vertex(end, 0.0)]
-    };
-    polygon(vertices, false)
+/// The space that an entity is drawn in.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stage<'a> {
+    pub placement: &'a Placement,
+    pub scale: Scale,
 }
 
-fn light_polyline(e: &LwPolyline, scale: Scale) -> Result<ArcSpline, Skip> {
-    upright(&e.extrusion_direction, ["LWPOLYLINE, mirrored", "LWPOLYLINE, tilted"])?;
-    let vertices = e.vertices.iter().map(|v| Vertex { point: at(v.x, v.y, scale), bulge: v.bulge });
-    polygon(vertices.collect(), e.is_closed())
-}
-
-fn polyline(e: &Polyline, scale: Scale) -> Result<ArcSpline, Skip> {
-    if e.is_3d_polygon_mesh() || e.is_polyface_mesh() {
-        return Err(Skip::NotRead("POLYLINE, mesh"));
-    }
-    if e.is_3d_polyline() {
-        return Err(Skip::NotRead("POLYLINE, 3D"));
-    }
-    upright(&e.normal, ["POLYLINE, mirrored", "POLYLINE, tilted"])?;
-    // Control points of a fitted curve stand among its vertices, but not on the curve.
-    let vertices = e
-        .vertices()
-        .filter(|v| !v.is_spline_frame_control_point())
-        .map(|v| Vertex { point: at(v.location.x, v.location.y, scale), bulge: v.bulge });
-    polygon(vertices.collect(), e.is_closed())
-}
-
-/// A chain of elements without those of no length, closed also where its ends are the same place.
-fn polygon(mut vertices: Vec<Vertex>, closed: bool) -> Result<ArcSpline, Skip> {
-    let place = vertices.iter().map(|v| v.point).find(|p| usable(*p));
-    let fault = |reason: &str| Err(Skip::Fault(reason.into(), place));
-    if vertices.iter().any(|v| !(v.point.is_finite() && v.bulge.is_finite())) {
-        return fault("a number is not finite");
-    }
-    if vertices.len() < 2 {
-        return fault("it has fewer than two vertices");
-    }
-    // Of vertices in one place the last counts: its element is the one that leads on.
-    let mut kept: Vec<Vertex> = Vec::with_capacity(vertices.len());
-    for vertex in vertices.drain(..) {
-        match kept.last_mut() {
-            Some(last) if last.point == vertex.point => *last = vertex,
-            _ => kept.push(vertex),
+impl Stage<'_> {
+    /// The plane of an entity that has a coordinate system of its own, at a height in it.
+    pub fn plane(&self, numbers: Numbers, height: f64) -> Result<Plane, Skip> {
+        let normal = normal(numbers);
+        if normal == [0.0, 0.0, 1.0] {
+            return Ok(Plane::new(self.placement, height, self.scale));
         }
-    }
-    let ends_meet = kept.len() > 1 && kept[0].point == kept[kept.len() - 1].point;
-    if ends_meet {
-        kept.pop();
-    }
-    if kept.len() < 2 {
-        return fault("it has no length");
-    }
-    let spline = ArcSpline { vertices: kept, closed: closed || ends_meet };
-    let fits = |v: &Vertex| usable(v.point);
-    // Beyond a half circle an arc is about as wide and high as its sagitta.
-    let sagitta = |e: crate::geom::Element| 0.5 * e.chord().length() * e.bulge.abs();
-    if !(spline.vertices.iter().all(fits) && spline.elements().all(|e| sagitta(e) <= LARGEST)) {
-        return fault("it is too large to calculate with");
-    }
-    Ok(spline)
-}
-
-/// Center and radius of something round.
-fn round(center: &::dxf::Point, radius: f64, scale: Scale) -> Result<(Point, f64), Skip> {
-    let (center, scaled) = (at(center.x, center.y, scale), scale.length(radius));
-    let place = usable(center).then_some(center);
-    let reason = if !(center.is_finite() && scaled.is_finite()) {
-        "a number is not finite".into()
-    } else if scaled <= 0.0 {
-        format!("its radius is {radius}")
-    } else if !usable(center) || scaled > LARGEST {
-        "it is too large to calculate with".into()
-    } else if center.x + scaled == center.x || center.y + scaled == center.y {
-        "its radius is smaller than the last digit of its center".into()
-    } else {
-        return Ok((center, scaled));
-    };
-    Err(Skip::Fault(reason, place))
-}
-
-/// Refuses a coordinate system that is not the one of the world, perhaps raised.
-fn upright(normal: &::dxf::Vector, names: [&'static str; 2]) -> Result<(), Skip> {
-    let least = TILT * normal.z.abs();
-    let plumb = normal.x.abs() <= least && normal.y.abs() <= least;
-    match plumb {
-        true if normal.z > 0.0 => Ok(()),
-        true if normal.z < 0.0 => Err(Skip::NotRead(names[0])),
-        _ => Err(Skip::NotRead(names[1])),
+        Ok(Plane::new(&self.placement.around(&Placement::of_normal(normal)?), height, self.scale))
     }
 }
 
-fn at(x: f64, y: f64, scale: Scale) -> Point {
-    point(scale.length(x), scale.length(y))
+/// The extrusion direction.
+pub(super) fn normal(numbers: Numbers) -> [f64; 3] {
+    [numbers.or(210, 0.0), numbers.or(220, 0.0), numbers.or(230, 1.0)]
 }
 
-fn usable(p: Point) -> bool {
+/// Adds what an entity draws.
+///
+/// Nothing is added if it is skipped.
+pub(super) fn draw(record: &Record, stage: Stage, drawn: &mut Drawn) -> Result<(), Skip> {
+    *drawn = Drawn { shapes: std::mem::take(&mut drawn.shapes), ..Drawn::default() };
+    drawn.shapes.clear();
+    let numbers = record.numbers();
+    match record.kind {
+        Kind::Line => line(numbers, stage, drawn),
+        Kind::Arc => arc(numbers, stage, drawn),
+        Kind::Circle => circle(numbers, stage, drawn),
+        Kind::Ellipse => ellipse(numbers, stage, drawn),
+        Kind::Spline => spline(numbers, stage, drawn),
+        Kind::LightPolyline => light_polyline(numbers, stage, drawn),
+        Kind::Polyline => polyline(numbers, stage, drawn),
+        Kind::Hatch => hatch(numbers, stage, drawn),
+        Kind::Insert | Kind::Other => Skip::fault("it draws nothing"),
+    }?;
+    let polyline = matches!(record.kind, Kind::LightPolyline | Kind::Polyline);
+    let other_than_0 = |codes: &[u16]| record.numbers.iter().any(|(c, v)| *v != 0.0 && codes.contains(c));
+    drawn.raised = stage.placement.height() != 0.0 || other_than_0(&[30, 31, 38, 39]);
+    drawn.wide = polyline && other_than_0(&[40, 41, 43]);
+    Ok(())
+}
+
+impl Drawn {
+    /// Adds a chain of vertices in a plane.
+    pub fn path(&mut self, vertices: Vec<Vertex>, closed: bool, plane: &Plane) -> Result<(), Skip> {
+        self.tilted |= plane.is_tilted();
+        let sign = match plane.roundness() {
+            Roundness::Kept => 1.0,
+            Roundness::Mirrored => -1.0,
+            Roundness::Lost if vertices.iter().any(|v| v.bulge != 0.0) => {
+                return self.stretched(&chain(vertices, closed)?, plane);
+            }
+            Roundness::Lost => 0.0,
+        };
+        let vertices = vertices
+            .into_iter()
+            .map(|v| Vertex { point: plane.point(v.point), bulge: sign * v.bulge })
+            .collect();
+        self.flat_path(vertices, closed)
+    }
+
+    /// Adds a chain of vertices in job units.
+    pub fn flat_path(&mut self, vertices: Vec<Vertex>, closed: bool) -> Result<(), Skip> {
+        let path = chain(vertices, closed)?;
+        // Beyond a half circle an arc is about as wide and high as its sagitta.
+        let sagitta = |e: Element| 0.5 * e.chord().length() * e.bulge.abs();
+        let fits = path.vertices.iter().all(|v| is_usable(v.point));
+        if !(fits && path.elements().all(|e| e.is_segment() || sagitta(e) <= LARGEST)) {
+            return Skip::fault("it is too large to calculate with");
+        }
+        self.shapes.push(Shape::Path(path));
+        Ok(())
+    }
+
+    /// Adds a chain of segments and elliptic arcs: what becomes of arcs that are stretched.
+    fn stretched(&mut self, path: &ArcSpline, plane: &Plane) -> Result<(), Skip> {
+        let mut run: Vec<Vertex> = Vec::new();
+        for element in path.elements() {
+            let (Some((center, radius)), false) = (element.center(), element.is_segment()) else {
+                if run.is_empty() {
+                    run.push(Vertex { point: plane.point(element.start), bulge: 0.0 });
+                }
+                run.push(Vertex { point: plane.point(element.end), bulge: 0.0 });
+                continue;
+            };
+            if !run.is_empty() {
+                self.flat_path(std::mem::take(&mut run), false)?;
+            }
+            let axes = [(radius, 0.0), (0.0, radius)].map(|(x, y)| plane.vector(crate::geom::vector(x, y)));
+            let start = (element.start - center).angle();
+            let [a, b] = axes;
+            self.ellipse(Ellipse::from_conjugate(plane.point(center), a, b, start, element.sweep()))?;
+        }
+        if run.is_empty() { Ok(()) } else { self.flat_path(run, false) }
+    }
+
+    /// Adds an elliptic arc.
+    pub fn ellipse(&mut self, ellipse: Ellipse) -> Result<(), Skip> {
+        let size = ellipse.major.length();
+        if !(ellipse.center.is_finite() && size.is_finite()) {
+            return Skip::fault("a number is not finite");
+        }
+        if size == 0.0 {
+            return Skip::fault("it has no length");
+        }
+        if !(is_usable(ellipse.center) && size <= LARGEST) {
+            return Skip::fault("it is too large to calculate with");
+        }
+        if ellipse.ratio < FLATTEST {
+            return Skip::fault("it is as flat as a line");
+        }
+        self.shapes.push(Shape::Free(FreeShape::Ellipse(ellipse)));
+        Ok(())
+    }
+}
+
+/// Whether a place is within the domain.
+pub(super) fn is_usable(p: Point) -> bool {
     p.x.abs() <= LARGEST && p.y.abs() <= LARGEST
 }
 
-/// Unit vector at an angle in degrees, exact at multiples of a quarter turn and symmetric about
-/// them, as the angle is taken from the nearest one.
-fn direction(degrees: f64) -> Vector {
-    let quarters = (degrees / 90.0).round();
-    let (sin, cos) = (degrees - 90.0 * quarters).to_radians().sin_cos();
-    let v = vector(cos, sin);
-    match quarters.rem_euclid(4.0) as u8 {
-        0 => v,
-        1 => v.left(),
-        2 => -v,
-        _ => v.right(),
+/// A chain of elements without those of no length, closed also where its ends are the same place.
+fn chain(mut vertices: Vec<Vertex>, closed: bool) -> Result<ArcSpline, Skip> {
+    if vertices.iter().any(|v| !(v.point.is_finite() && v.bulge.is_finite())) {
+        return Skip::fault("a number is not finite");
     }
-}
-
-/// Bulge of an arc over an angle in degrees, up to a half turn, which is exact.
-fn bulge(degrees: f64) -> f64 {
-    if degrees == 180.0 { 1.0 } else { (0.25 * degrees).to_radians().tan() }
+    if vertices.len() < 2 {
+        return Skip::fault("it has fewer than two vertices");
+    }
+    // Of vertices in one place the last counts: its element is the one that leads on.
+    let mut kept = 0;
+    for i in 0..vertices.len() {
+        if kept > 0 && vertices[kept - 1].point == vertices[i].point {
+            kept -= 1;
+        }
+        vertices[kept] = vertices[i];
+        kept += 1;
+    }
+    vertices.truncate(kept);
+    let ends_meet = kept > 1 && vertices[0].point == vertices[kept - 1].point;
+    if ends_meet {
+        vertices.pop();
+    }
+    if vertices.len() < 2 {
+        return Skip::fault("it has no length");
+    }
+    Ok(ArcSpline { vertices, closed: closed || ends_meet })
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
+    use crate::geom::point;
 
-    const MM: Scale = Scale::SAME;
-
-    fn an_arc(radius: f64, start_angle: f64, end_angle: f64) -> Arc {
-        Arc { center: ::dxf::Point::new(10.0, 20.0, 0.0), radius, start_angle, end_angle, ..Arc::default() }
+    /// What a record of these numbers draws.
+    pub fn drawn_by(kind: Kind, numbers: &[(u16, f64)], placement: &Placement) -> Result<Drawn, Skip> {
+        let record = Record { kind, numbers: numbers.to_vec(), ..Record::default() };
+        let mut drawn = Drawn::default();
+        draw(&record, Stage { placement, scale: Scale::SAME }, &mut drawn).map(|()| drawn)
     }
 
-    fn a_polyline(vertices: &[(f64, f64, f64)], flags: i32) -> LwPolyline {
-        let vertices = vertices.iter().map(|&(x, y, bulge)| ::dxf::LwPolylineVertex {
-            x,
-            y,
-            bulge,
-            ..Default::default()
-        });
-        LwPolyline { vertices: vertices.collect(), flags, ..LwPolyline::default() }
-    }
-
-    fn reason(result: Result<ArcSpline, Skip>) -> String {
-        match result {
-            Err(Skip::Fault(reason, _)) => reason,
+    /// The one path that a record of these numbers draws.
+    pub fn path_of(kind: Kind, numbers: &[(u16, f64)]) -> Result<ArcSpline, Skip> {
+        match &drawn_by(kind, numbers, &Placement::ROOT)?.shapes[..] {
+            [Shape::Path(path)] => Ok(path.clone()),
             other => panic!("{other:?}"),
         }
     }
 
-    #[test]
-    fn arcs_between_quarters_end_on_round_numbers() {
-        let places = [(13.0, 20.0), (10.0, 23.0), (7.0, 20.0), (10.0, 17.0), (13.0, 20.0)];
-        for quarter in 0..4_u8 {
-            let start = 90.0 * f64::from(quarter);
-            let spline = arc(&an_arc(3.0, start, start + 90.0), MM).unwrap();
-            let ends = spline.vertices.iter().map(|v| (v.point.x, v.point.y)).collect::<Vec<_>>();
-            assert_eq!(ends, places[usize::from(quarter)..][..2]);
-            assert!((spline.element(0).sweep().to_degrees() - 90.0).abs() < 1e-13);
+    /// Why a record of these numbers is skipped.
+    pub fn fault_of(kind: Kind, numbers: &[(u16, f64)]) -> String {
+        match drawn_by(kind, numbers, &Placement::ROOT) {
+            Err(Skip::Fault(reason)) => reason,
+            other => panic!("{other:?}"),
         }
     }
 
-    #[test]
-    fn a_half_circle_has_bulge_one() {
-        let spline = arc(&an_arc(3.0, 270.0, 90.0), MM).unwrap();
-        assert_eq!(spline, ArcSpline::open([(10.0, 17.0, 1.0), (10.0, 23.0, 0.0)]));
-    }
-
-    #[test]
-    fn an_arc_beyond_a_half_circle_is_two_elements() {
-        let spline = arc(&an_arc(3.0, 30.0, 300.0), MM).unwrap();
-        assert_eq!(spline.len(), 2);
-        assert!((spline.length() - 1.5 * std::f64::consts::PI * 3.0).abs() < 1e-13);
-        let (center, radius) = spline.element(1).center().unwrap();
-        assert!(center.distance(point(10.0, 20.0)) < 1e-13 && (radius - 3.0).abs() < 1e-13);
-    }
-
-    #[test]
-    fn angles_may_be_written_in_any_turn() {
-        let wanted = arc(&an_arc(3.0, 350.0, 20.0), MM).unwrap();
-        for (start, end) in [(-10.0, 20.0), (350.0, 380.0), (710.0, -340.0)] {
-            assert_eq!(arc(&an_arc(3.0, start, end), MM).unwrap(), wanted);
-        }
-        assert_eq!(arc(&an_arc(3.0, 1e9, 1e9 + 90.0), MM).unwrap().len(), 1);
-    }
-
-    #[test]
-    fn an_arc_of_a_full_turn_is_a_circle() {
-        let full = arc(&an_arc(3.0, 0.0, 360.0), MM).unwrap();
-        assert_eq!(full, ArcSpline::circle(point(10.0, 20.0), 3.0));
-        let full = arc(&an_arc(3.0, 33.0, 393.0), MM).unwrap();
-        assert!(full.closed && (full.area() - 9.0 * std::f64::consts::PI).abs() < 1e-12);
-        assert!(reason(arc(&an_arc(3.0, 33.0, 33.0), MM)).contains("same angle"));
-    }
-
-    #[test]
-    fn what_has_no_size_or_no_number_is_refused() {
-        for radius in [0.0, -5.0] {
-            assert_eq!(reason(arc(&an_arc(radius, 0.0, 90.0), MM)), format!("its radius is {radius}"));
-        }
-        for radius in [f64::NAN, f64::INFINITY] {
-            assert!(reason(arc(&an_arc(radius, 0.0, 90.0), MM)).contains("finite"));
-        }
-        assert!(reason(arc(&an_arc(3.0, f64::NAN, 90.0), MM)).contains("angle"));
-        assert!(reason(arc(&an_arc(1e15, 0.0, 90.0), MM)).contains("large"));
-        assert!(
-            reason(light_polyline(&a_polyline(&[(0.0, 0.0, 1e13), (1.0, 0.0, 0.0)], 1), MM))
-                .contains("large")
-        );
-        assert!(reason(light_polyline(&a_polyline(&[(0.0, 0.0, 0.0); 50], 1), MM)).contains("no length"));
-        assert!(reason(light_polyline(&a_polyline(&[(3.0, 4.0, 0.0)], 1), MM)).contains("two vertices"));
-        let nan = light_polyline(&a_polyline(&[(f64::NAN, 0.0, 0.0), (3.0, 4.0, 0.0)], 0), MM);
-        assert_eq!(nan, Err(Skip::Fault("a number is not finite".into(), Some(point(3.0, 4.0)))));
-    }
-
-    #[test]
-    fn a_polyline_closes_by_flag_or_by_its_ends() {
-        let corners = [(0.0, 0.0, 0.0), (4.0, 0.0, 0.5), (4.0, 3.0, 0.0)];
-        let wanted = ArcSpline::closed(corners);
-        assert_eq!(light_polyline(&a_polyline(&corners, 1), MM).unwrap(), wanted);
-        assert!(!light_polyline(&a_polyline(&corners, 128), MM).unwrap().closed);
-        let mut returning = corners.to_vec();
-        returning.push((0.0, 0.0, 0.7));
-        assert_eq!(light_polyline(&a_polyline(&returning, 0), MM).unwrap(), wanted);
-        assert_eq!(light_polyline(&a_polyline(&returning, 1), MM).unwrap(), wanted);
+    fn vertex(x: f64, y: f64, bulge: f64) -> Vertex {
+        Vertex { point: point(x, y), bulge }
     }
 
     #[test]
     fn elements_of_no_length_vanish_with_their_bulge() {
-        let doubled = [(0.0, 0.0, 0.0), (4.0, 0.0, 0.9), (4.0, 0.0, 0.5), (4.0, 3.0, 0.0)];
-        let wanted = ArcSpline::closed([doubled[0], doubled[2], doubled[3]]);
-        assert_eq!(light_polyline(&a_polyline(&doubled, 1), MM).unwrap(), wanted);
+        let doubled =
+            vec![vertex(0.0, 0.0, 0.0), vertex(4.0, 0.0, 0.9), vertex(4.0, 0.0, 0.5), vertex(4.0, 3.0, 0.0)];
+        let wanted = ArcSpline::closed([(0.0, 0.0, 0.0), (4.0, 0.0, 0.5), (4.0, 3.0, 0.0)]);
+        assert_eq!(chain(doubled, true), Ok(wanted));
+        assert!(chain(vec![vertex(1.0, 1.0, 0.5); 50], true).is_err());
     }
 
     #[test]
-    fn other_coordinate_systems_are_not_guessed_at() {
-        let circle_on = |x, y, z| {
-            let normal = ::dxf::Vector::new(x, y, z);
-            circle(&Circle { radius: 1.0, normal, ..Circle::default() }, MM)
+    fn heights_are_noted_and_ignored() {
+        let line = [(10, 1.0), (20, 2.0), (30, 5.0), (11, 3.0), (21, 2.0), (31, 7.0)];
+        let drawn = drawn_by(Kind::Line, &line, &Placement::ROOT).unwrap();
+        assert!(drawn.raised && !drawn.tilted);
+        assert_eq!(drawn.shapes, [Shape::Path(ArcSpline::open([(1.0, 2.0, 0.0), (3.0, 2.0, 0.0)]))]);
+        let flat = [(10, 1.0), (20, 2.0), (30, 0.0), (11, 3.0), (21, 2.0)];
+        assert!(!drawn_by(Kind::Line, &flat, &Placement::ROOT).unwrap().raised);
+    }
+
+    #[test]
+    fn a_stretched_polyline_keeps_its_lines_and_stretches_its_arcs() {
+        let slot = [
+            [(10, 0.0), (20, 0.0), (42, 0.0)],
+            [(10, 4.0), (20, 0.0), (42, 1.0)],
+            [(10, 4.0), (20, 2.0), (42, 0.0)],
+            [(10, 0.0), (20, 2.0), (42, 1.0)],
+        ];
+        let numbers = [&[(70, 1.0)][..], &slot.concat()].concat();
+        let placement = Placement::turned([2.0, 1.0, 1.0], 0.0);
+        let drawn = drawn_by(Kind::LightPolyline, &numbers, &placement).unwrap();
+        let [
+            Shape::Path(a),
+            Shape::Free(FreeShape::Ellipse(b)),
+            Shape::Path(c),
+            Shape::Free(FreeShape::Ellipse(_)),
+        ] = &drawn.shapes[..]
+        else {
+            panic!("{drawn:?}")
         };
-        assert!(circle_on(0.0, 0.0, 1.0).is_ok() && circle_on(1e-17, 0.0, 1.0).is_ok());
-        assert_eq!(circle_on(0.0, 0.0, -1.0), Err(Skip::NotRead("CIRCLE, mirrored")));
-        for (x, y, z) in [(1e-6, 0.0, 1.0), (0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, f64::NAN, 1.0)] {
-            assert_eq!(circle_on(x, y, z), Err(Skip::NotRead("CIRCLE, tilted")));
-        }
+        assert_eq!(a, &ArcSpline::open([(0.0, 0.0, 0.0), (8.0, 0.0, 0.0)]));
+        assert_eq!((b.center, b.ratio), (point(8.0, 1.0), 0.5));
+        assert!(
+            b.ends()[0].distance(point(8.0, 0.0)) < 1e-15 && b.ends()[1].distance(point(8.0, 2.0)) < 1e-15
+        );
+        assert_eq!(c, &ArcSpline::open([(8.0, 2.0, 0.0), (0.0, 2.0, 0.0)]));
     }
 }

@@ -1,65 +1,74 @@
-//! Counts of what was not read.
+//! Counts of what was not read, and of what was made simpler.
 
-use super::records::Record;
+use super::record::Record;
 use crate::geom::Point;
-use crate::io::Warning;
+use crate::io::{Place, Warning};
 use std::collections::BTreeMap;
 
-/// Kinds that may be part of an outline and are not read yet.
-const OUTLINES: [&str; 11] = [
-    "SPLINE", "ELLIPSE", "INSERT", "HELIX", "MLINE", "SOLID", "TRACE", "3DFACE", "3DLINE", "REGION",
-    "3DSOLID",
-];
+/// Kinds that may be part of an outline and are not read.
+const OUTLINES: [&str; 10] =
+    ["HELIX", "MLINE", "SOLID", "TRACE", "3DFACE", "REGION", "3DSOLID", "BODY", "SURFACE", "MESH"];
 
-/// Everything that was met and not read, by kind and reason.
+/// Everything that was met and not read as it was drawn, by kind and reason.
 #[derive(Default)]
 pub(super) struct Skipped {
-    kinds: BTreeMap<String, (usize, bool)>,
-    faults: BTreeMap<(String, String), Fault>,
+    /// By kind and, if it may be part of an outline, layer.
+    kinds: BTreeMap<(String, Option<String>), usize>,
+    faults: BTreeMap<(String, String), First>,
+    simplified: BTreeMap<(String, &'static str), First>,
 }
 
-/// The first entity with a fault, and how many have it.
-struct Fault {
+/// How many, and the first of them.
+struct First {
     count: usize,
     handle: Option<u64>,
+    place: Place,
     at: Option<Point>,
 }
 
 impl Skipped {
     /// An entity of a kind that is not read.
-    pub fn kind(&mut self, kind: &str) {
-        self.count(kind, OUTLINES.contains(&kind));
+    pub fn kind(&mut self, kind: &str, layer: &str) {
+        if OUTLINES.contains(&kind) {
+            return self.form(kind, layer);
+        }
+        *self.kinds.entry((kind.to_owned(), None)).or_default() += 1;
     }
 
-    /// An entity of a kind that is read, in a form that is not.
-    pub fn form(&mut self, form: &str) {
-        self.count(form, true);
-    }
-
-    fn count(&mut self, kind: &str, outline: bool) {
-        self.kinds.entry(kind.to_owned()).or_insert((0, outline)).0 += 1;
+    /// An entity of a kind that is read, in a form that is not, or that becomes one.
+    pub fn form(&mut self, form: &str, layer: &str) {
+        *self.kinds.entry((form.to_owned(), Some(layer.to_owned()))).or_default() += 1;
     }
 
     /// An entity with something wrong.
-    pub fn fault(&mut self, record: &Record, reason: String, at: Option<Point>) {
-        self.faults
-            .entry((record.kind.clone(), reason))
-            .or_insert(Fault { count: 0, handle: record.handle, at })
-            .count += 1;
+    pub fn fault(&mut self, kind: &str, record: &Record, reason: &str, at: Option<Point>) {
+        count(&mut self.faults, (kind.to_owned(), reason.to_owned()), record, at);
     }
 
-    /// One warning per kind and per fault.
-    pub fn warnings(self) -> impl Iterator<Item = Warning> {
-        let kinds = self.kinds.into_iter().map(|(entity, (count, outline))| Warning::NotRead {
-            entity,
-            count,
-            outline,
-        });
-        let faults = self.faults.into_iter().map(|((entity, reason), Fault { count, handle, at })| {
-            Warning::EntitySkipped { entity, handle, reason, count, at }
-        });
-        kinds.chain(faults)
+    /// An entity of which something was ignored.
+    pub fn simplified(&mut self, kind: &str, record: &Record, how: &'static str, at: Option<Point>) {
+        count(&mut self.simplified, (kind.to_owned(), how), record, at);
     }
+
+    /// One warning per kind, fault and simplification.
+    pub fn warnings(self) -> impl Iterator<Item = Warning> {
+        let kinds =
+            self.kinds.into_iter().map(|((entity, layer), count)| Warning::NotRead { entity, count, layer });
+        let faults = self.faults.into_iter().map(|((entity, reason), first)| {
+            let First { count, handle, place, at } = first;
+            Warning::EntitySkipped { entity, handle, place, reason, count, at }
+        });
+        let simplified = self.simplified.into_iter().map(|((entity, how), first)| {
+            let First { count, handle, place, at } = first;
+            Warning::Simplified { entity, handle, place, how, count, at }
+        });
+        kinds.chain(faults).chain(simplified)
+    }
+}
+
+fn count<K: Ord>(firsts: &mut BTreeMap<K, First>, key: K, record: &Record, at: Option<Point>) {
+    let first = First { count: 0, handle: record.handle, place: record.place, at };
+    firsts.entry(key).or_insert(first).count += 1;
 }
 
 #[cfg(test)]
@@ -71,19 +80,22 @@ mod tests {
     fn equal_faults_are_one_warning_with_the_first_place() {
         let mut skipped = Skipped::default();
         for (handle, x) in [(7, 1.0), (8, 2.0)] {
-            let record = Record { kind: "ARC".into(), handle: Some(handle), ..Record::default() };
-            skipped.fault(&record, "its radius is 0".into(), Some(point(x, 0.0)));
+            let record = Record { handle: Some(handle), place: Place::Line(2 * handle), ..Record::default() };
+            skipped.fault("ARC", &record, "its radius is 0", Some(point(x, 0.0)));
+            skipped.simplified("LINE", &record, "its height is ignored", None);
         }
-        for kind in ["TEXT", "SPLINE", "TEXT"] {
-            skipped.kind(kind);
+        for (kind, layer) in [("TEXT", "0"), ("SOLID", "Cut"), ("TEXT", "Notes"), ("SOLID", "Old")] {
+            skipped.kind(kind, layer);
         }
         let warnings: Vec<String> = skipped.warnings().map(|w| w.to_string()).collect();
         assert_eq!(
             warnings,
             [
-                "SPLINE: 1 not read yet",
+                "SOLID: 1 on layer `Cut` not read",
+                "SOLID: 1 on layer `Old` not read",
                 "TEXT: 2 skipped, no outline",
-                "ARC 7 and 1 more skipped: its radius is 0"
+                "ARC 7 (line 14) and 1 more skipped: its radius is 0",
+                "LINE 7 (line 14) and 1 more: its height is ignored",
             ]
         );
     }
