@@ -108,4 +108,4 @@ pub use mat::{AxisEdge, AxisVertex, Counts, Disk, Kind, Mat, Mismatch, Residuals
 pub use offset::{Level, MergeTree, Part};
 pub use tolerance::{Tolerance, Units};
 pub use toolpath::{Direction, Entry, Job, Move, Path, PocketPath, Point3, Start, Strategy, Totals};
-pub use verify::{Fault, FaultKind, LevelReport};
+pub use verify::{Comparison, Disagreement, DisagreementKind, Fault, FaultKind, LevelReport, Party};
