@@ -55,6 +55,14 @@ pub enum Error {
         /// The limit.
         limit: u64,
     },
+    /// Another library, asked for its opinion, gave up.
+    #[error("{library} gave up: {what}")]
+    OtherLibrary {
+        /// Which one.
+        library: &'static str,
+        /// What it said.
+        what: String,
+    },
     /// The caller asked to stop.
     #[error("cancelled")]
     Cancelled,

@@ -88,10 +88,15 @@
 //!
 //! # Features
 //!
-//! `cli` builds the binary `pocket`, `dxf` reads and writes drawings; both are on by default. `verify` is the
-//! place of a second judge of offsets; the first, [`verify`](mod@verify), is always there.
+//! On by default are `cli`, the binary `pocket`; `dxf`, which reads and writes drawings; and `verify`,
+//! with which cavalier_contours is a second judge of offsets beside the exact one, which is always
+//! there (see [`verify`](mod@verify)).
+//!
+//! `geo-types` and `cavalier-contours` add conversions from and to polygons of geo_types, flattened to
+//! a tolerance, and polylines of cavalier_contours, bit for bit (see [`convert`]).
 
 pub mod boundary;
+pub mod convert;
 pub mod error;
 pub mod geom;
 pub mod io;
@@ -108,4 +113,4 @@ pub use mat::{AxisEdge, AxisVertex, Counts, Disk, Kind, Mat, Mismatch, Residuals
 pub use offset::{Level, MergeTree, Part};
 pub use tolerance::{Tolerance, Units};
 pub use toolpath::{Direction, Entry, Job, Move, Path, PocketPath, Point3, Start, Strategy, Totals};
-pub use verify::{Fault, FaultKind, LevelReport};
+pub use verify::{Comparison, Disagreement, DisagreementKind, Fault, FaultKind, LevelReport, Party};

@@ -174,6 +174,17 @@ fn the_json_report_has_the_keys_of_its_contract() {
     );
     assert_eq!(keys(&timed["verify"]), sorted("levels max_deviation cavalier_contours"));
     assert!(timed["verify"]["max_deviation"].as_f64().unwrap() < 1e-9);
+    let second = &timed["verify"]["cavalier_contours"];
+    if cfg!(feature = "verify") {
+        assert_eq!(keys(second), sorted("levels max_deviation disagreements not_compared"));
+        assert_eq!(second["levels"], timed["verify"]["levels"]);
+        assert!(
+            second["max_deviation"].as_f64().unwrap() < 1e-6
+                && second["disagreements"].as_array().unwrap().is_empty()
+        );
+    } else {
+        assert!(second.is_null());
+    }
 }
 
 #[test]

@@ -24,6 +24,8 @@ mod simple;
 
 pub use curve::{Curve, FreeCurve, FreeShape, Source};
 pub use pocket::{Pocket, Pockets};
+#[cfg(feature = "geo-types")]
+pub(crate) use ray::{Rays, turned};
 
 #[cfg(test)]
 mod tests;

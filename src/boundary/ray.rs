@@ -19,7 +19,7 @@ use std::f64::consts::FRAC_PI_2;
 const TURN: (f64, f64) = (0.764_842_187_284_488_4, 0.644_217_687_237_691);
 
 /// A place in the turned coordinates of this module.
-pub(super) fn turned(p: Point) -> Point {
+pub(crate) fn turned(p: Point) -> Point {
     point(p.x * TURN.0 - p.y * TURN.1, p.x * TURN.1 + p.y * TURN.0)
 }
 
@@ -32,7 +32,7 @@ struct Piece {
 
 /// Where a ray to the left hits.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Hit {
+pub(crate) struct Hit {
     /// The loop.
     pub owner: usize,
     /// Whether the ray comes from the left side of the loop.
@@ -41,7 +41,7 @@ pub(super) struct Hit {
 
 /// Loops prepared for rays.
 #[derive(Debug)]
-pub(super) struct Rays {
+pub(crate) struct Rays {
     tree: Index,
     pieces: Vec<Piece>,
 }

@@ -20,11 +20,11 @@ use rayon::prelude::*;
 
 /// Round-off of a distance between stored curves, relative to the largest coordinate: an offset
 /// takes a few thousand roundings at worst from the boundary to its loops, each at most `eps / 2`.
-const ROUND_OFF: f64 = 4096.0 * f64::EPSILON;
+pub(super) const ROUND_OFF: f64 = 4096.0 * f64::EPSILON;
 
 /// How far the judge steps aside of a loop, relative to the largest coordinate: well beyond
 /// round-off, and no farther, as in a small drawing far from the origin that is far enough.
-const ASIDE: f64 = 8.0 * ROUND_OFF;
+pub(super) const ASIDE: f64 = 8.0 * ROUND_OFF;
 
 /// Parameters at which every element is looked at; the ends belong to its neighbors as well.
 const PLACES: [f64; 4] = [0.0, 0.25, 0.5, 0.75];

@@ -9,6 +9,7 @@ mod outputs;
 mod plan;
 mod progress;
 mod report;
+mod second;
 mod settings;
 mod timings;
 mod verdict;

@@ -1,36 +1,29 @@
-//! `--verify`: every level set before the judge.
+//! `--verify`: every level set before the judges.
 
 use crate::plan::Plan;
-use medial::ArcSpline;
+use crate::second::Second;
 use medial::verify::{self, LevelReport};
+use medial::{ArcSpline, Level};
 use serde::Serialize;
 
-/// What the judge says of all levels.
+/// What the judges say of all levels.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Verdict {
     pub levels: usize,
     pub max_deviation: f64,
-    pub cavalier_contours: Second,
+    /// The second judge, where it is built in.
+    pub cavalier_contours: Option<Second>,
     #[serde(skip)]
     pub wrong: Vec<LevelReport>,
 }
 
-/// What the second judge says; it is not asked yet.
-#[derive(Clone, Debug, Default, Serialize)]
-pub struct Second {
-    pub levels: usize,
-    pub max_deviation: f64,
-    pub disagreements: Vec<String>,
-}
-
 impl Verdict {
-    /// Asks the judge.
+    /// Asks the judges.
     pub fn of(plan: &Plan) -> Verdict {
-        let mut verdict = Verdict::default();
+        let mut verdict = Verdict { cavalier_contours: Second::of(plan), ..Verdict::default() };
         for (pocket, path) in plan.pockets.iter().zip(&plan.path.pockets) {
             for level in &path.levels {
-                let offsets: Vec<ArcSpline> = level.loops.iter().chain(&level.ridges).cloned().collect();
-                let report = verify::level(pocket.loops(), level.distance, &offsets);
+                let report = verify::level(pocket.loops(), level.distance, &curves(level));
                 verdict.levels += 1;
                 verdict.max_deviation = verdict.max_deviation.max(report.max_deviation);
                 if !report.is_right() {
@@ -41,7 +34,7 @@ impl Verdict {
         verdict
     }
 
-    /// Whether every level is right.
+    /// Whether the exact judge calls every level right.
     pub fn is_right(&self) -> bool {
         self.wrong.is_empty()
     }
@@ -60,6 +53,15 @@ impl Verdict {
                 .map_or(String::new(), |f| format!(", the first at {}: {}, by {:.3e}", f.at, f.kind, f.by));
             text += &format!("  level {}: {} faults{first}\n", report.distance, report.fault_count);
         }
+        match &self.cavalier_contours {
+            Some(second) => text += &second.text(),
+            None => text += "  not compared with cavalier_contours: built without the feature verify\n",
+        }
         text
     }
+}
+
+/// The loops and ridges of a level.
+pub fn curves(level: &Level) -> Vec<ArcSpline> {
+    level.loops.iter().chain(&level.ridges).cloned().collect()
 }
