@@ -2,7 +2,7 @@
 
 use super::bvh::SearchDisk;
 use super::graph::Graph;
-use super::lamination::UnitDisk;
+use super::piece::UnitDisk;
 use super::splice::TANGENT_ROUNDINGS;
 use super::track::Track;
 use super::union::Sets;
