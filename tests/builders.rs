@@ -40,6 +40,13 @@ fn size_of(seed: u64) -> usize {
     (10.0 * 200f64.powf(share * share)) as usize
 }
 
+/// The outer loop of a shape.
+fn outline(kind: &str, size: usize, seed: u64) -> Vec<ArcSpline> {
+    let mut loops = shapes::make(kind, size, seed);
+    loops.truncate(1);
+    loops
+}
+
 #[test]
 fn both_builders_find_the_same_axes() {
     let faults: Vec<String> = shapes::KINDS
@@ -47,12 +54,29 @@ fn both_builders_find_the_same_axes() {
         .flat_map(|kind| (1..=30u64).into_par_iter().map(move |seed| (*kind, seed)))
         .filter_map(|(kind, seed)| {
             let size = size_of(seed);
-            let mut loops = shapes::make(kind, size, seed);
-            loops.truncate(1);
-            fault(loops).map(|e| format!("{kind} of {size} elements, seed {seed}: {e}"))
+            fault(outline(kind, size, seed)).map(|e| format!("{kind} of {size} elements, seed {seed}: {e}"))
         })
         .collect();
     assert!(faults.is_empty(), "{} failures:\n{}", faults.len(), faults.join("\n"));
+}
+
+/// Shapes that once divided wrongly, each with what was in the way.
+#[test]
+fn what_was_divided_wrongly_once_is_divided_well() {
+    let cases = [
+        ("coast", 789, 28, "an arc is passed over while the disk moves back to where the edge begins"),
+        ("coast", 1571, 7, "the same"),
+        ("coast", 1526, 1059, "the second arc comes into reach on the way only"),
+        ("hexagons", 1315, 1111, "the same"),
+        ("smooth", 1947, 1045, "a disk that touches a short end of an arc does not osculate it"),
+        ("smooth", 73, 1016, "an osculating disk touches where the next arc, almost as curved, begins"),
+        ("fingers", 330, 1060, "the same"),
+        ("convex", 1486, 1104, "three sides as good as in line touch a disk over a long way"),
+        ("convex", 696, 1191, "three sides define a branch to a billionth only"),
+    ];
+    for (kind, size, seed, what) in cases {
+        assert_eq!(fault(outline(kind, size, seed)), None, "{kind} {size} {seed}: {what}");
+    }
 }
 
 fn polygon(corners: &[(f64, f64)]) -> ArcSpline {

@@ -6,9 +6,13 @@
 //! [`SAME`] are one *knot*, edges inside a knot count for nothing, and a knot where an edge only goes on
 //! between the same two elements is no knot. What is left must be equal, edge by edge: the knots at its
 //! ends and the elements on its sides.
+//!
+//! Where three elements define a branch badly, two corners of a few seconds of arc say, its place is
+//! uncertain by more than that although both disks are right to round-off. So much is allowed to two
+//! branches of the same three elements.
 #![allow(dead_code)]
 
-use medial::{AxisEdge, AxisVertex, Mat, Point, SiteRef};
+use medial::{AxisEdge, AxisVertex, Mat, Point, SiteRef, Vector};
 use std::collections::HashMap;
 
 /// Distance of two places that are the same, relative to the size.
@@ -106,9 +110,57 @@ impl Knots {
                 }
             }
         }
+        let branches = |axis, shift: usize| branches(axis).into_iter().map(move |b| (b.vertex + shift, b));
+        let of_b: HashMap<_, _> = branches(b, shift).map(|(j, branch)| (branch.sides, j)).collect();
+        for (i, branch) in branches(a, 0) {
+            if let Some(&j) = of_b.get(&branch.sides) {
+                let apart =
+                    disks[i].center.distance(disks[j].center) + (disks[i].radius - disks[j].radius).abs();
+                if apart <= branch.uncertain * near {
+                    unite(&mut up, i, j);
+                }
+            }
+        }
         let number: Vec<usize> = (0..disks.len()).map(|i| root(&up, i)).collect();
         Knots { number, place: disks.iter().map(|d| d.center).collect() }
     }
+}
+
+/// Roundings in a disk, times those in a drawn coordinate.
+const ROUNDINGS: f64 = 64.0;
+
+/// A vertex of three edges.
+struct Branch {
+    vertex: usize,
+    /// The three elements, in order.
+    sides: Vec<Side>,
+    /// Round-off of its place, in units of [`SAME`].
+    uncertain: f64,
+}
+
+/// The vertices of three edges, with what round-off makes of them.
+///
+/// The edges halve the angles between the normals, so the triangle of the normals has twice the area
+/// `4 sin A sin B sin C` with the angles between edges, and its longest side is twice the greatest of
+/// the three sines. A disk is computed by a division by the one and a multiplication by the other.
+fn branches(axis: &Axis) -> Vec<Branch> {
+    let mut edges_at = vec![Vec::new(); axis.vertices.len()];
+    for e in &axis.edges {
+        let sides = [side(e.sites[0]), side(e.sites[1])];
+        edges_at[e.from as usize].push((e.points[1] - e.points[0], sides));
+        edges_at[e.to as usize].push((e.points[1] - e.points[2], sides));
+    }
+    let branch = |(vertex, edges): (usize, &Vec<(Vector, [Side; 2])>)| {
+        let &[(u, s), (v, t), (w, r)] = edges.as_slice() else { return None };
+        let sines = [(u, v), (v, w), (w, u)].map(|(a, b)| a.unit().cross(b.unit()).abs());
+        let longest = sines.into_iter().fold(0.0, f64::max);
+        let area: f64 = sines.iter().product();
+        let mut sides = [s, t, r].concat();
+        sides.sort_unstable();
+        sides.dedup();
+        Some(Branch { vertex, sides, uncertain: ROUNDINGS * f64::EPSILON * longest / area / SAME })
+    };
+    edges_at.iter().enumerate().filter_map(branch).collect()
 }
 
 fn root(up: &[usize], mut i: usize) -> usize {

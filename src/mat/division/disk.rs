@@ -9,6 +9,7 @@ use super::super::shot::probe_at;
 use super::super::site::Site;
 use super::super::touch::{Probe, Span, foot_of, touch};
 use super::super::track::Track;
+use super::apollonius::tangent_to_three;
 use super::medialaxis::Division;
 use super::subdomain::{DividingDisk, Link, Slot, Touch};
 use crate::geom::Point;
@@ -40,12 +41,17 @@ impl Division<'_> {
         let probe = Track::of(self.sites, piece).at(0.5);
         let limit = self.sites[piece.site as usize].own_limit();
         let (radius, toucher) = self.grow(domain, &probe, &[a], limit);
-        let tangents = match toucher {
-            Some(b) => vec![Tangent::Piece(a), Tangent::Piece(b)],
-            None => vec![Tangent::Whole(a)],
-        };
         let disk = UnitDisk { center: probe.center(radius), radius };
-        radius.is_finite().then(|| self.dividing_disk(domain, disk, &tangents))
+        if !radius.is_finite() {
+            return None;
+        }
+        Some(match toucher {
+            Some(b) => {
+                let tangents = [Tangent::Piece(a), Tangent::Piece(b)];
+                self.best_defined(domain, self.dividing_disk(domain, disk, &tangents))
+            }
+            None => self.dividing_disk(domain, disk, &[Tangent::Whole(a)]),
+        })
     }
 
     /// The disk tangent to an arc where it goes over to the next.
@@ -101,27 +107,70 @@ impl Division<'_> {
         let n = domain.len();
         let mut touches: Vec<Touch> =
             (0..n).map(|i| self.touched(self.piece(domain, i), &disk, self.graph.error)).collect();
+        let natural = |i: usize| domain[i].link.disk().is_none();
+        // Both sides end in the joint, whatever round-off says of the place.
+        let meet = |touches: &mut [Touch], i: usize| {
+            let j = (i + 1) % n;
+            (touches[i].end, touches[i].inside) = (true, None);
+            (touches[j].start, touches[j].inside) = (true, None);
+        };
         for &tangent in known {
             match tangent {
                 Tangent::Piece(i) => {
                     touches[i] = self.touched(self.piece(domain, i), &disk, f64::INFINITY);
                 }
-                Tangent::Whole(i) => touches[i] = Touch { start: true, inside: None, end: true },
-                Tangent::Joint(i) => {
-                    let j = (i + 1) % n;
-                    (touches[i].end, touches[i].inside) = (true, None);
-                    (touches[j].start, touches[j].inside) = (true, None);
+                Tangent::Whole(i) => {
+                    touches[i] = Touch { start: true, inside: None, end: true };
+                    let before = (i + n - 1) % n;
+                    [before, i].into_iter().filter(|&j| natural(j)).for_each(|j| meet(&mut touches, j));
                 }
+                Tangent::Joint(i) => meet(&mut touches, i),
             }
         }
         DividingDisk::new(domain, disk, touches)
     }
 
+    /// A disk with more tangent points than it was made from, made anew from the three that define it
+    /// best, if it is as empty then.
+    ///
+    /// Where the three normals are nearly one, as in two corners that are nearly flat, a disk touches
+    /// all to round-off over a long way, and the place where it was found says little.
+    pub fn best_defined(&self, domain: &[Slot], found: DividingDisk) -> DividingDisk {
+        let touched: Vec<usize> = found.touched().collect();
+        let site = |i: usize| &self.sites[self.piece(domain, i).site as usize];
+        let normal = |i: usize| {
+            let piece = self.piece(domain, i);
+            foot_of(site(i), found.disk.center, &piece.from, &piece.to).normal
+        };
+        let [first, _, _, ..] = touched[..] else { return found };
+        let n0 = normal(first);
+        let farthest = |weight: &dyn Fn(usize) -> f64| {
+            touched.iter().copied().max_by(|&i, &j| weight(i).total_cmp(&weight(j))).unwrap_or(first)
+        };
+        let second = farthest(&|i| (normal(i) - n0).length_squared());
+        let across = normal(second) - n0;
+        let third = farthest(&|i| (normal(i) - n0).cross(across).abs());
+        let disk = tangent_to_three([first, second, third].map(site), found.disk);
+        let gap = |i: usize| self.distance(self.piece(domain, i), disk.center) - disk.radius;
+        let error = self.graph.error;
+        let touches = [first, second, third].into_iter().all(|i| gap(i).abs() <= error);
+        let empty = (0..domain.len()).all(|i| gap(i) >= -error);
+        if disk.radius > 0.0 && touches && empty {
+            let tangents = [first, second, third].map(Tangent::Piece);
+            return self.dividing_disk(domain, disk, &tangents);
+        }
+        found
+    }
+
     /// Where a disk touches a piece that it comes nearer to than an error.
     fn touched(&self, piece: &Piece, disk: &UnitDisk, error: f64) -> Touch {
         let site = &self.sites[piece.site as usize];
-        let near = |p: Point| p.distance(disk.center) - disk.radius <= self.graph.error;
-        if site.own_limit().is_finite() && near(piece.from.point) && near(piece.to.point) {
+        let limit = site.own_limit();
+        let osculated = || {
+            let center = piece.from.point + piece.from.normal * limit;
+            center.distance(disk.center).max((limit - disk.radius).abs()) <= self.graph.error
+        };
+        if limit.is_finite() && osculated() {
             return Touch { start: true, inside: None, end: true };
         }
         if self.distance(piece, disk.center) - disk.radius > error {

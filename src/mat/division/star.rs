@@ -45,14 +45,14 @@ impl Division<'_> {
         let (before, b) = ((a + n - 1) % n, (a + 1) % n);
         let pair = Pair { domain, before, a, b, track: Track::of(self.sites, self.piece(domain, a)) };
         let mut candidate = self.at_start(&pair);
-        if domain[b].link.disk().is_none() && self.is_beyond(&pair, &candidate) {
-            candidate = self.at_joint(&pair).unwrap_or(candidate);
-        }
         // An arc in the way may be passed over on the way back, so all are tested against the last disk.
         let others = || (0..n).filter(|&x| x != a && x != b);
         let mut settled = false;
         while !settled {
             settled = true;
+            if let Some(nearer) = self.at_joint(&pair, &candidate) {
+                (candidate, settled) = (nearer, false);
+            }
             for x in others() {
                 if self.overlaps(&pair, &candidate, x)
                     && let Some(nearer) = self.branching(&pair, &candidate, x)
@@ -68,7 +68,7 @@ impl Division<'_> {
             Tangent::Joint(_) => [Tangent::Piece(b), candidate.third, candidate.third],
             third => [Tangent::Piece(a), Tangent::Piece(b), third],
         };
-        Some(self.dividing_disk(domain, disk, &tangents))
+        Some(self.best_defined(domain, self.dividing_disk(domain, disk, &tangents)))
     }
 
     /// The disk where the first arc begins.
@@ -81,24 +81,24 @@ impl Division<'_> {
         Candidate { t: 0.0, disk, third }
     }
 
-    /// Whether the disk is tangent to the second arc beyond its end only.
-    fn is_beyond(&self, pair: &Pair<'_>, candidate: &Candidate) -> bool {
-        let b = self.piece(pair.domain, pair.b);
-        let site = &self.sites[b.site as usize];
-        candidate.disk.is_none_or(|d| foot_of(site, d.center, &b.from, &b.to) == b.to)
-    }
-
-    /// The disk where the second arc goes over to the next.
-    fn at_joint(&self, pair: &Pair<'_>) -> Option<Candidate> {
+    /// The disk where the second arc goes over smoothly to the next, if the candidate is tangent to it
+    /// beyond that end only.
+    fn at_joint(&self, pair: &Pair<'_>, candidate: &Candidate) -> Option<Candidate> {
         let [a, b] = [pair.a, pair.b].map(|i| self.piece(pair.domain, i));
-        let probe = probe_at(&self.sites[b.site as usize]);
+        let [site, site_b] = [a, b].map(|p| &self.sites[p.site as usize]);
+        let beyond = |d: UnitDisk| foot_of(site_b, d.center, &b.from, &b.to) == b.to;
+        if pair.domain[pair.b].link.disk().is_some() || !candidate.disk.is_none_or(beyond) {
+            return None;
+        }
+        let probe = probe_at(site_b);
         let radius = self.reach(a, &probe);
         let disk = UnitDisk { center: probe.center(radius), radius };
-        let site = &self.sites[a.site as usize];
-        radius.is_finite().then(|| {
-            let foot = foot_of(site, disk.center, &a.from, &a.to);
-            let t = parameter(site, a, &foot);
-            Candidate { t, disk: Some(disk), third: Tangent::Joint(pair.b) }
+        let t = parameter(site, a, &foot_of(site, disk.center, &a.from, &a.to));
+        let nearer = t > candidate.t || candidate.disk.is_none();
+        (radius.is_finite() && nearer).then_some(Candidate {
+            t,
+            disk: Some(disk),
+            third: Tangent::Joint(pair.b),
         })
     }
 
@@ -129,8 +129,12 @@ impl Division<'_> {
         });
         let probe = pair.track.at(t);
         let radius = self.reach(b, &probe).min(self.reach(c, &probe));
-        if !(radius.is_finite() && t > candidate.t) {
+        if t <= candidate.t {
             return None;
+        }
+        if !radius.is_finite() {
+            // The second arc comes into reach here; others are nearer then.
+            return Some(Candidate { t, disk: None, third: Tangent::Piece(x) });
         }
         let near = UnitDisk { center: probe.center(radius), radius };
         let disk = tangent_to_three([a, b, c].map(|p| &self.sites[p.site as usize]), near);
