@@ -116,9 +116,7 @@ impl Division<'_> {
         };
         for &tangent in known {
             match tangent {
-                Tangent::Piece(i) => {
-                    touches[i] = self.touched(self.piece(domain, i), &disk, f64::INFINITY);
-                }
+                Tangent::Piece(i) => self.touch_for_sure(domain, &disk, i, &mut touches),
                 Tangent::Whole(i) => {
                     touches[i] = Touch { start: true, inside: None, end: true };
                     let before = (i + n - 1) % n;
@@ -128,6 +126,25 @@ impl Division<'_> {
             }
         }
         DividingDisk::new(domain, disk, touches)
+    }
+
+    /// Notes where a disk touches a piece that it is known to touch. Where that is an end, the place
+    /// may be the next piece's, as in the normal cone of a reflex vertex.
+    fn touch_for_sure(&self, domain: &[Slot], disk: &UnitDisk, i: usize, touches: &mut [Touch]) {
+        let n = domain.len();
+        let touch = |j: usize| self.touched(self.piece(domain, j), disk, f64::INFINITY);
+        let natural = |j: usize| domain[j].link.disk().is_none();
+        touches[i] = touch(i);
+        let mut at = i;
+        while touches[at].end && natural(at) && !touches[(at + 1) % n].is_any() {
+            at = (at + 1) % n;
+            touches[at] = touch(at);
+        }
+        at = i;
+        while touches[at].start && natural((at + n - 1) % n) && !touches[(at + n - 1) % n].is_any() {
+            at = (at + n - 1) % n;
+            touches[at] = touch(at);
+        }
     }
 
     /// A disk with more tangent points than it was made from, made anew from the three that define it

@@ -46,7 +46,7 @@ pub(super) struct Touch {
 }
 
 impl Touch {
-    fn is_any(&self) -> bool {
+    pub fn is_any(&self) -> bool {
         self.start || self.inside.is_some() || self.end
     }
 }
@@ -73,9 +73,7 @@ impl DividingDisk {
             if slot.link.disk().is_some() {
                 continue;
             }
-            // Where only one side is near enough, the other one is by less than a rounding not.
-            joints[i] = found[i].end && (found[j].start || !found[j].is_any())
-                || found[j].start && !found[i].is_any();
+            joints[i] = found[i].end && found[j].start;
             touches[i].end = false;
             touches[j].start = false;
         }
