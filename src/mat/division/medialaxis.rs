@@ -14,8 +14,8 @@ use crate::error::Error;
 use crate::geom::{Point, Vector};
 use std::collections::HashMap;
 
-/// Random arcs that are tried before a subdomain is given up. One is enough wherever a disk or a
-/// convex vertex bounds the subdomain, as `maximaldisk*` then always reduces it.
+/// Random arcs that are tried before a subdomain is given up. But for round-off
+/// one is enough wherever a disk or a convex vertex bounds the subdomain: `maximaldisk*` reduces it.
 const ATTEMPTS: usize = 64;
 
 impl Pocket {
@@ -23,7 +23,7 @@ impl Pocket {
     /// planar free-form shapes* (Computer-Aided Design 41, 2009), section 3.
     ///
     /// This is the judge of [`medial_axis`](Pocket::medial_axis): it decides by other disks, in another
-    /// order, what is connected with what, and takes time that grows with the square of the size.
+    /// order, what is connected with what, at a cost per disk that is linear in the part it divides.
     ///
     /// # Errors
     /// [`Error::Islands`] when the pocket has islands that do not touch its wall, and

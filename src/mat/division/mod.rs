@@ -6,7 +6,7 @@
 //!
 //! **Needs** a pocket whose boundary hangs together: without islands, or with islands that touch it.
 //! **Guarantees** what `mat` does; what is random comes from a fixed seed.
-//! **Does not** scale: linear work for every disk, some ten disks for every site.
+//! **Does not** scale: every disk costs time linear in the size of its subdomain.
 //!
 //! **Method** (the names are the paper's). A *subdomain* is a closed row of pieces of the boundary,
 //! joined by corners of the drawing or by *artificial arcs* of earlier disks (`subdomain`). Until it is
