@@ -63,6 +63,12 @@ pub enum Error {
         /// What it said.
         what: String,
     },
+    /// A pocket with islands, for a method that knows none.
+    #[error("the pocket has {count} islands apart from its wall; this method needs one without")]
+    Islands {
+        /// How many do not touch the wall.
+        count: usize,
+    },
     /// The caller asked to stop.
     #[error("cancelled")]
     Cancelled,

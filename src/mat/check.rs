@@ -2,7 +2,7 @@
 
 use super::bvh::SearchDisk;
 use super::graph::{BoundaryPiece, Graph, GraphEdge};
-use super::lamination::{Piece, UnitDisk};
+use super::piece::{Piece, UnitDisk};
 use super::site::{Foot, NONE};
 use super::splice::TANGENT_ROUNDINGS;
 use super::track::Track;

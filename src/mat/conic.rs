@@ -7,7 +7,7 @@
 //! edge, whose barycentric coordinates obey `l1^2 = 4 w^2 l0 l2`.
 
 use super::graph::{Graph, GraphEdge};
-use super::lamination::Piece;
+use super::piece::Piece;
 use super::site::Site;
 use super::track::Track;
 use crate::geom::{Point, Vector};

@@ -12,7 +12,7 @@
 
 use super::bvh::{Bvh, SearchDisk};
 use super::graph::Graph;
-use super::lamination::{Piece, UnitDisk};
+use super::piece::{Piece, UnitDisk};
 use super::site::{Foot, Site};
 use super::touch::{Contact, Probe, foot_of};
 use super::track::Track;

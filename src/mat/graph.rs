@@ -1,7 +1,8 @@
 //! The axis as a graph under construction: disks, pieces of the boundary, and edges between them.
 
 use super::face::{Face, Slot, falling_root};
-use super::lamination::{Lamination, Piece, UnitDisk, cut_vertex};
+use super::lamination::Lamination;
+use super::piece::{Piece, UnitDisk, cut_vertex};
 use super::site::{Foot, NONE, Site};
 use super::touch::foot_of;
 use super::track::Track;

@@ -15,18 +15,12 @@
 //! Source: the division by maximal disks of Aichholzer et al., *Medial axis computation for planar
 //! free-form shapes* (CAD 41, 2009), section 3, with all disks chosen up front.
 
+use super::piece::{Piece, UnitDisk, cut_vertex};
 use super::shot::Shot;
 use super::site::{Foot, Joint, NONE, Site};
 use super::sites::Sites;
 use super::touch::{Contact, foot_of};
 use crate::geom::Point;
-
-/// A disk in the unit frame.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct UnitDisk {
-    pub center: Point,
-    pub radius: f64,
-}
 
 /// Where a joint disk touches a site.
 #[derive(Clone, Copy, Debug)]
@@ -59,16 +53,6 @@ pub(super) struct Lamination {
     contacts: Vec<ContactItem>,
     /// Greatest distance of disks that were united, and the center of one of the two.
     pub widest_union: (f64, Point),
-}
-
-/// A part of one site between two visits.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Piece {
-    pub site: u32,
-    pub from: Foot,
-    pub to: Foot,
-    /// Vertices of the boundary at its ends, where it reaches an end of its site.
-    pub vertices: [u32; 2],
 }
 
 impl Lamination {
@@ -411,11 +395,6 @@ impl Lamination {
     pub fn item_count(&self, sites: &[Site]) -> usize {
         sites.len() + self.contacts.len()
     }
-}
-
-/// Vertex of the boundary where a site is cut: a cone is cut at its vertex, other sites at none.
-pub(super) fn cut_vertex(site: &Site) -> u32 {
-    if site.is_vertex { site.vertices[0] } else { NONE }
 }
 
 /// Unites two blocks; `into` stays a root.

@@ -19,11 +19,13 @@
 mod bvh;
 mod check;
 mod conic;
+mod division;
 mod face;
 mod frame;
 mod graph;
 mod kinds;
 mod lamination;
+mod piece;
 mod query;
 mod radii;
 mod shot;
@@ -44,7 +46,7 @@ pub use vertex::{AxisEdge, AxisVertex, Disk, Kind, SiteKind, SiteRef};
 
 pub(crate) use face::falling_root;
 pub(crate) use graph::{BoundaryPiece, GraphEdge};
-pub(crate) use lamination::Piece;
+pub(crate) use piece::Piece;
 pub(crate) use site::{Foot, NONE, Site};
 pub(crate) use track::Track;
 pub(crate) use union::Sets;

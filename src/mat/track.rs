@@ -1,6 +1,6 @@
 //! The disks tangent to one piece of the boundary, as a function of the place on it.
 
-use super::lamination::Piece;
+use super::piece::Piece;
 use super::site::{NONE, Site};
 use super::touch::{Contact, Probe, Span, touch};
 use crate::geom::Vector;

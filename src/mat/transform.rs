@@ -5,7 +5,8 @@ use super::conic::bezier;
 use super::frame::Frame;
 use super::graph::{DISK_ROUNDINGS, Graph};
 use super::kinds::Kinds;
-use super::lamination::{Lamination, UnitDisk};
+use super::lamination::Lamination;
+use super::piece::UnitDisk;
 use super::radii::Radii;
 use super::shot::shoot_all;
 use super::site::{NONE, Site};
@@ -140,6 +141,11 @@ impl Mat {
     pub(super) fn build(frame: Frame, all: Sites, bvh: Bvh, map: Lamination, islands: usize) -> Mat {
         let mut graph = Graph::of(&all.sites, map, DISK_ROUNDINGS * frame.noise);
         graph.contract();
+        Mat::of_graph(frame, all, bvh, graph, islands)
+    }
+
+    /// The transform whose vertices and edges are those of a graph of contracted edges.
+    pub(super) fn of_graph(frame: Frame, all: Sites, bvh: Bvh, mut graph: Graph, islands: usize) -> Mat {
         graph.split_at_extrema(&all.sites);
         let kinds = Kinds::of(&graph);
         Mat { frame, sites: all.sites, bvh, graph, kinds, islands, blur: all.blur, radii: OnceLock::new() }
