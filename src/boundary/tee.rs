@@ -1,0 +1,215 @@
+//! Ends that lie on other curves.
+//!
+//! **Needs** clean paths. **Guarantees** that an end of an open curve that has no other end within
+//! reach, but a curve, lies on that curve to round-off, and that an open curve on which an end lies
+//! ends there itself. **Does not** move anything else, nor an end by more than the reach.
+//!
+//! **Method.** Curves are cut where ends come to lie on them before ends are moved, so that of two
+//! curves that run side by side for a while each has a part between the same two places.
+
+use super::arrange::filed;
+use super::chain::Contour;
+use super::grain::Grain;
+use super::index::Index;
+use crate::geom::{ArcSpline, Bounds, Element, Point, Vertex};
+use std::collections::HashMap;
+
+/// Open curves with their places in the drawing.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Loose {
+    pub paths: Vec<ArcSpline>,
+    pub ranks: Vec<usize>,
+}
+
+/// An end of an open curve: its number and whether it is the last vertex.
+type End = (usize, bool);
+
+/// Where an end comes to lie on a curve.
+#[derive(Clone, Copy, Debug)]
+struct Tee {
+    end: End,
+    /// Number of the curve, contours after open ones, and of its element.
+    on: (usize, usize),
+    place: Point,
+    distance: f64,
+}
+
+/// Moves lone ends onto the curves that they lie on.
+pub(super) fn attach(loose: Loose, contours: &[Contour], join: f64, grain: Grain) -> Loose {
+    let lone = lone_ends(&loose.paths, join);
+    if lone.is_empty() {
+        return loose;
+    }
+    let all: Vec<&ArcSpline> = loose.paths.iter().chain(contours.iter().map(|c| &c.path)).collect();
+    let mut tees = tees(&all, &lone, join + grain.same);
+    tees.sort_by(|a, b| a.distance.total_cmp(&b.distance).then(a.end.cmp(&b.end)));
+    let mut moved: HashMap<End, Point> = HashMap::new();
+    let mut cuts: HashMap<usize, Vec<(usize, Point)>> = HashMap::new();
+    let is_lone: HashMap<End, Point> = lone.iter().map(|&e| (e, place(&loose.paths, e))).collect();
+    for tee in tees {
+        if moved.contains_key(&tee.end) {
+            continue;
+        }
+        // Two ends that overshoot each other meet halfway.
+        let beyond = [false, true].map(|last| (tee.on.0, last)).into_iter().find(|end| {
+            !moved.contains_key(end) && is_lone.get(end).is_some_and(|p| p.distance(tee.place) <= join)
+        });
+        if let Some(other) = beyond.filter(|&o| o != tee.end) {
+            let middle = is_lone[&tee.end].midpoint(is_lone[&other]);
+            moved.extend([(tee.end, middle), (other, middle)]);
+            continue;
+        }
+        moved.insert(tee.end, tee.place);
+        if tee.on.0 < loose.paths.len() {
+            cuts.entry(tee.on.0).or_default().push((tee.on.1, tee.place));
+        }
+    }
+    let mut found = Loose::default();
+    for (i, path) in loose.paths.iter().enumerate() {
+        let mut pieces = cut(path, cuts.get(&i).map_or(&[], Vec::as_slice));
+        let last = pieces.len() - 1;
+        if let Some(&p) = moved.get(&(i, false)) {
+            pieces[0].vertices[0].point = p;
+        }
+        if let (Some(&p), Some(end)) = (moved.get(&(i, true)), pieces[last].vertices.last_mut()) {
+            end.point = p;
+        }
+        found.ranks.extend(pieces.iter().map(|_| loose.ranks[i]));
+        found.paths.extend(pieces);
+    }
+    found
+}
+
+fn place(paths: &[ArcSpline], (curve, last): End) -> Point {
+    let vertices = &paths[curve].vertices;
+    vertices[if last { vertices.len() - 1 } else { 0 }].point
+}
+
+/// Ends that have no other end within reach.
+fn lone_ends(paths: &[ArcSpline], join: f64) -> Vec<End> {
+    let ends: Vec<End> = (0..paths.len()).flat_map(|i| [(i, false), (i, true)]).collect();
+    let places: Vec<Point> = ends.iter().map(|&e| place(paths, e)).collect();
+    let mut count: HashMap<(u64, u64), u32> = HashMap::with_capacity(places.len());
+    for p in &places {
+        *count.entry((p.x.to_bits(), p.y.to_bits())).or_default() += 1;
+    }
+    let single: Vec<usize> =
+        (0..ends.len()).filter(|&i| count[&(places[i].x.to_bits(), places[i].y.to_bits())] == 1).collect();
+    if single.is_empty() {
+        return Vec::new();
+    }
+    let tree = Index::new(&places.iter().map(|&p| Bounds { min: p, max: p }).collect::<Vec<_>>());
+    let is_lone = |i: usize| {
+        let p = places[i];
+        let mut lone = true;
+        tree.walk(
+            &mut lone,
+            |lone, _, b| (*lone && b.nearest(p).distance(p) <= join).then_some(0.0),
+            |lone, other| *lone &= other as usize == i,
+        );
+        lone
+    };
+    single.into_iter().filter(|&i| is_lone(i)).map(|i| ends[i]).collect()
+}
+
+/// For each lone end the nearest curve within reach.
+fn tees(all: &[&ArcSpline], lone: &[End], reach: f64) -> Vec<Tee> {
+    let owners: Vec<(usize, usize)> =
+        all.iter().enumerate().flat_map(|(i, p)| (0..p.len()).map(move |e| (i, e))).collect();
+    let elements: Vec<Element> = owners.iter().map(|&(i, e)| all[i].element(e)).collect();
+    let (boxes, filed) = filed(&elements, 0.0);
+    let tree = Index::new(&boxes);
+    let find = |&end: &End| {
+        let p = all[end.0].vertices[if end.1 { all[end.0].len() } else { 0 }].point;
+        let near = own_elements_near(all[end.0], end.1, reach);
+        let mut best: Option<Tee> = None;
+        tree.walk(
+            &mut best,
+            |best, _, b| {
+                let gap = b.nearest(p).distance(p);
+                (gap <= best.map_or(reach, |t: Tee| t.distance)).then_some(gap)
+            },
+            |best, piece| {
+                let number = filed[piece as usize] as usize;
+                let on = owners[number];
+                if on.0 == end.0 && near.contains(&on.1) {
+                    return;
+                }
+                let (place, distance) = nearest(&elements[number], p, reach);
+                let is_better = best.is_none_or(|b| (distance, on) < (b.distance, b.on));
+                if distance <= reach && is_better {
+                    *best = Some(Tee { end, on, place, distance });
+                }
+            },
+        );
+        best
+    };
+    lone.iter().filter_map(find).collect()
+}
+
+/// The place of an element nearest to `p`: one of its ends where one is within reach.
+fn nearest(element: &Element, p: Point, reach: f64) -> (Point, f64) {
+    let (a, b) = (element.start.distance(p), element.end.distance(p));
+    if a.min(b) <= reach {
+        return if a <= b { (element.start, a) } else { (element.end, b) };
+    }
+    let found = element.nearest(p);
+    (found.point, found.distance)
+}
+
+/// How far along its own curve an end must come back to, in reaches, to lie on it: nearer, it is a
+/// neighbor only.
+const WAY_BACK: f64 = 4.0;
+
+/// The elements of a curve that are near to one of its ends along the curve.
+fn own_elements_near(path: &ArcSpline, last: bool, reach: f64) -> std::ops::Range<usize> {
+    let n = path.len();
+    let (mut way, mut count) = (0.0, 0);
+    while count < n && way <= WAY_BACK * reach {
+        way += path.element(if last { n - 1 - count } else { count }).length();
+        count += 1;
+    }
+    if last { n - count..n } else { 0..count }
+}
+
+/// A path cut at places on its elements.
+fn cut(path: &ArcSpline, cuts: &[(usize, Point)]) -> Vec<ArcSpline> {
+    let mut sorted: Vec<(usize, f64, Point)> = cuts
+        .iter()
+        .map(|&(element, p)| {
+            let e = path.element(element);
+            let parameter = if p == e.end { 1.0 } else { e.parameter(p).clamp(0.0, 1.0) };
+            (element, if p == e.start { 0.0 } else { parameter }, p)
+        })
+        .collect();
+    sorted.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    let mut pieces = Vec::new();
+    let mut vertices: Vec<Vertex> = Vec::new();
+    let mut rest = &sorted[..];
+    for (i, e) in path.elements().enumerate() {
+        let own;
+        (own, rest) = rest.split_at(rest.partition_point(|c| c.0 <= i));
+        let (mut at, mut from) = (e.start, 0.0);
+        let bulge = |from: f64, to: f64| {
+            if (from, to) == (0.0, 1.0) { e.bulge } else { (e.bulge.atan() * (to - from)).tan() }
+        };
+        for &(_, t, p) in own {
+            if p != at {
+                vertices.push(Vertex { point: at, bulge: bulge(from, t) });
+                (at, from) = (p, t);
+            }
+            if !vertices.is_empty() {
+                vertices.push(Vertex { point: p, bulge: 0.0 });
+                pieces.push(ArcSpline { vertices: std::mem::take(&mut vertices), closed: false });
+            }
+        }
+        if at != e.end {
+            vertices.push(Vertex { point: at, bulge: bulge(from, 1.0) });
+        }
+    }
+    if !vertices.is_empty() {
+        vertices.push(Vertex { point: path.vertices[path.len()].point, bulge: 0.0 });
+        pieces.push(ArcSpline { vertices, closed: false });
+    }
+    pieces
+}
