@@ -303,7 +303,9 @@ proptest! {
         for i in 0..4 {
             for j in 0..3 {
                 let (x, y) = (f64::from(7 * i), f64::from(5 * j));
-                parts.push(rectangle(x + 0.1 * y, y, 7.0, 5.0).mapped(false, |p| point(p.x, p.y + 0.01 * p.x)));
+                // Rows of bricks, unless their joints would be in doubt by the noise.
+                let stagger = if noise == 0.0 { 0.1 * y } else { 0.0 };
+                parts.push(rectangle(x + stagger, y, 7.0, 5.0).mapped(false, |p| point(p.x, p.y + 0.01 * p.x)));
             }
         }
         let mut keyed: Vec<(usize, ArcSpline)> = sides(&parts)

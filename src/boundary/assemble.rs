@@ -10,6 +10,7 @@ use super::clean::{clean, is_usable, rough_bounds, some_place};
 use super::crossing::Crossings;
 use super::duplicate::Seen;
 use super::faces::Faces;
+use super::gather::gather;
 use super::grain::Grain;
 use super::loose::dividers;
 use super::pieces::{Loop, Pieces};
@@ -34,7 +35,7 @@ pub(super) fn assemble<'a>(
     let seen = Seen::new(grain, join);
     let mut drawing = Drawing { grain, join, defects: Vec::new(), seen, overlaps: None, healed: None };
     let (contours, open) = drawing.contours(paths);
-    let (lines, rest) = dividers(open, &contours, grain);
+    let (lines, rest) = dividers(open, &contours, join, grain);
     let mut arranged = drawing.arranged(contours, lines, rest)?;
     let pockets = drawing.pockets(&mut arranged, from_depth);
     drawing.report();
@@ -101,6 +102,8 @@ impl Drawing {
 
     /// Open curves whose ends lie on the curves that they end on.
     fn attached(&mut self, loose: Loose, contours: &[Contour]) -> Loose {
+        let mut loose = loose;
+        gather(&mut loose.paths, self.join, self.grain);
         let count = loose.paths.len();
         let attached = attach(loose, contours, self.join, self.grain);
         if attached.paths.len() == count {

@@ -10,15 +10,22 @@ use super::clean::clean;
 use super::ends::cluster;
 use super::grain::Grain;
 use super::index::Index;
+use super::tee::settle_on;
 use crate::geom::{ArcSpline, Element, Point};
 
 /// The curves of open chains: those that may divide contours, and the others.
 pub(super) fn dividers(
     open: Vec<OpenChain>,
     contours: &[Contour],
+    join: f64,
     grain: Grain,
 ) -> (Vec<ArcSpline>, Vec<ArcSpline>) {
-    let curves = open.into_iter().flat_map(|chain| chain.curves).map(|path| clean(&path, grain));
+    let mut curves: Vec<ArcSpline> = open.into_iter().flat_map(|chain| chain.curves).collect();
+    if curves.is_empty() {
+        return (curves, Vec::new());
+    }
+    settle_on(&mut curves, contours, join, grain);
+    let curves = curves.into_iter().map(|path| clean(&path, grain));
     let curves: Vec<ArcSpline> = curves.filter(|path| !path.is_empty()).collect();
     if curves.is_empty() {
         return (curves, Vec::new());

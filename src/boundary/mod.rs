@@ -15,6 +15,7 @@ mod duplicate;
 mod ends;
 mod faces;
 mod fan;
+mod gather;
 mod grain;
 mod index;
 mod intersect;

@@ -32,6 +32,8 @@ struct Tee {
     on: (usize, usize),
     place: Point,
     distance: f64,
+    /// Whether it is no end of the element.
+    is_inner: bool,
 }
 
 /// Moves lone ends onto the curves that they lie on.
@@ -50,13 +52,12 @@ pub(super) fn attach(loose: Loose, contours: &[Contour], join: f64, grain: Grain
         if moved.contains_key(&tee.end) {
             continue;
         }
-        // Two ends that overshoot each other meet halfway.
+        // Two ends that overshoot each other are trimmed to where the curves meet.
         let beyond = [false, true].map(|last| (tee.on.0, last)).into_iter().find(|end| {
             !moved.contains_key(end) && is_lone.get(end).is_some_and(|p| p.distance(tee.place) <= join)
         });
         if let Some(other) = beyond.filter(|&o| o != tee.end) {
-            let middle = is_lone[&tee.end].midpoint(is_lone[&other]);
-            moved.extend([(tee.end, middle), (other, middle)]);
+            moved.extend([(tee.end, tee.place), (other, tee.place)]);
             continue;
         }
         moved.insert(tee.end, tee.place);
@@ -78,6 +79,22 @@ pub(super) fn attach(loose: Loose, contours: &[Contour], join: f64, grain: Grain
         found.paths.extend(pieces);
     }
     found
+}
+
+/// Moves the ends of open curves onto the contours that they lie on, to vertices first.
+pub(super) fn settle_on(curves: &mut [ArcSpline], contours: &[Contour], join: f64, grain: Grain) {
+    let all: Vec<&ArcSpline> = contours.iter().map(|c| &c.path).collect();
+    let ends: Vec<End> = (0..curves.len()).flat_map(|i| [(i, false), (i, true)]).collect();
+    let places: Vec<Point> = ends.iter().map(|&e| place(curves, e)).collect();
+    let near = Near::new(&all);
+    for (&(curve, last), &p) in ends.iter().zip(&places) {
+        let none = 0..0;
+        if let Some(found) = near.find(p, join + grain.same, (usize::MAX, none)) {
+            let path = &mut curves[curve];
+            let vertex = if last { path.len() } else { 0 };
+            path.vertices[vertex].point = found.place;
+        }
+    }
 }
 
 fn place(paths: &[ArcSpline], (curve, last): End) -> Point {
@@ -114,47 +131,68 @@ fn lone_ends(paths: &[ArcSpline], join: f64) -> Vec<End> {
 
 /// For each lone end the nearest curve within reach.
 fn tees(all: &[&ArcSpline], lone: &[End], reach: f64) -> Vec<Tee> {
-    let owners: Vec<(usize, usize)> =
-        all.iter().enumerate().flat_map(|(i, p)| (0..p.len()).map(move |e| (i, e))).collect();
-    let elements: Vec<Element> = owners.iter().map(|&(i, e)| all[i].element(e)).collect();
-    let (boxes, filed) = filed(&elements, 0.0);
-    let tree = Index::new(&boxes);
+    let near = Near::new(all);
     let find = |&end: &End| {
         let p = all[end.0].vertices[if end.1 { all[end.0].len() } else { 0 }].point;
-        let near = own_elements_near(all[end.0], end.1, reach);
-        let mut best: Option<Tee> = None;
-        tree.walk(
-            &mut best,
-            |best, _, b| {
-                let gap = b.nearest(p).distance(p);
-                (gap <= best.map_or(reach, |t: Tee| t.distance)).then_some(gap)
-            },
-            |best, piece| {
-                let number = filed[piece as usize] as usize;
-                let on = owners[number];
-                if on.0 == end.0 && near.contains(&on.1) {
-                    return;
-                }
-                let (place, distance) = nearest(&elements[number], p, reach);
-                let is_better = best.is_none_or(|b| (distance, on) < (b.distance, b.on));
-                if distance <= reach && is_better {
-                    *best = Some(Tee { end, on, place, distance });
-                }
-            },
-        );
-        best
+        let own = own_elements_near(all[end.0], end.1, reach);
+        let found = near.find(p, reach, (end.0, own))?;
+        Some(Tee { end, ..found })
     };
     lone.iter().filter_map(find).collect()
 }
 
-/// The place of an element nearest to `p`: one of its ends where one is within reach.
-fn nearest(element: &Element, p: Point, reach: f64) -> (Point, f64) {
+/// Curves prepared for the search of the nearest one.
+struct Near {
+    elements: Vec<Element>,
+    /// Curve and number of each element.
+    owners: Vec<(usize, usize)>,
+    filed: Vec<u32>,
+    tree: Index,
+}
+
+impl Near {
+    fn new(curves: &[&ArcSpline]) -> Near {
+        let owners: Vec<(usize, usize)> =
+            curves.iter().enumerate().flat_map(|(i, p)| (0..p.len()).map(move |e| (i, e))).collect();
+        let elements: Vec<Element> = owners.iter().map(|&(i, e)| curves[i].element(e)).collect();
+        let (boxes, filed) = filed(&elements, 0.0);
+        Near { elements, owners, filed, tree: Index::new(&boxes) }
+    }
+
+    /// The nearest place within reach that is not on some elements of a curve; the end that looks
+    /// for it is not known here.
+    fn find(&self, p: Point, reach: f64, not_on: (usize, std::ops::Range<usize>)) -> Option<Tee> {
+        let mut best: Option<Tee> = None;
+        self.tree.walk(
+            &mut best,
+            |_, _, b| Some(b.nearest(p).distance(p)).filter(|gap| *gap <= reach),
+            |best, piece| {
+                let number = self.filed[piece as usize] as usize;
+                let on = self.owners[number];
+                if on.0 == not_on.0 && not_on.1.contains(&on.1) {
+                    return;
+                }
+                let (place, distance, is_inner) = nearest(&self.elements[number], p, reach);
+                let key = (is_inner, distance, on);
+                let is_better = best.is_none_or(|b| key < (b.is_inner, b.distance, b.on));
+                if distance <= reach && is_better {
+                    *best = Some(Tee { end: (usize::MAX, false), on, place, distance, is_inner });
+                }
+            },
+        );
+        best
+    }
+}
+
+/// The place of an element nearest to `p`, how far it is, and whether it is no end of the element:
+/// an end is taken where one is within reach.
+fn nearest(element: &Element, p: Point, reach: f64) -> (Point, f64, bool) {
     let (a, b) = (element.start.distance(p), element.end.distance(p));
     if a.min(b) <= reach {
-        return if a <= b { (element.start, a) } else { (element.end, b) };
+        return if a <= b { (element.start, a, false) } else { (element.end, b, false) };
     }
     let found = element.nearest(p);
-    (found.point, found.distance)
+    (found.point, found.distance, true)
 }
 
 /// How far along its own curve an end must come back to, in reaches, to lie on it: nearer, it is a
