@@ -263,7 +263,7 @@ fn sheet() -> Vec<ArcSpline> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 48, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 48, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn order_direction_start_copies_and_place_do_not_matter(
@@ -312,7 +312,8 @@ proptest! {
             .into_iter()
             .enumerate()
             .map(|(i, mut side)| {
-                let off = if reversed[(7 * i) % 60] { noise } else { -noise };
+                // No two ends are off by the same: what meets exactly is not disturbed by what is near.
+                let off = noise * (((37 * i) % 101) as f64 / 50.0 - 1.0);
                 side.vertices[0].point.x += off;
                 side.vertices[1].point.y -= off;
                 (order[i % 60] ^ i, if reversed[i % 60] { side.reversed() } else { side })

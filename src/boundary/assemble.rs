@@ -10,7 +10,7 @@ use super::clean::{clean, is_usable, rough_bounds, some_place};
 use super::crossing::Crossings;
 use super::duplicate::Seen;
 use super::faces::Faces;
-use super::gather::gather;
+use super::gather::{all_ends_meet, gather};
 use super::grain::Grain;
 use super::loose::dividers;
 use super::pieces::{Loop, Pieces};
@@ -57,6 +57,8 @@ struct Drawing {
 /// A drawing whose curves have common vertices where they meet.
 struct Arranged {
     loops: Vec<Loop>,
+    /// Whether loops touch at most, and nothing divides them.
+    is_plain: bool,
     /// Contours that cross.
     crossing: Vec<ArcSpline>,
     /// Open curves that may divide contours.
@@ -102,6 +104,9 @@ impl Drawing {
 
     /// Open curves whose ends lie on the curves that they end on.
     fn attached(&mut self, loose: Loose, contours: &[Contour]) -> Loose {
+        if all_ends_meet(&loose.paths) {
+            return loose;
+        }
         let mut loose = loose;
         gather(&mut loose.paths, self.join, self.grain);
         let count = loose.paths.len();
@@ -164,7 +169,8 @@ impl Drawing {
                 (false, false) => dividers.push(curve.path),
             }
         }
-        Ok(Arranged { loops: self.loops(simple), crossing, dividers, rest })
+        let is_plain = dividers.is_empty() && !crossings.are_any_along;
+        Ok(Arranged { loops: self.loops(simple), is_plain, crossing, dividers, rest })
     }
 
     /// Once contours share their vertices, copies of contours drawn with others are equal too.
@@ -226,7 +232,11 @@ impl Drawing {
 
     fn pockets(&mut self, arranged: &mut Arranged, from_depth: usize) -> Vec<Pocket> {
         let loops = std::mem::take(&mut arranged.loops);
-        let pieces = Pieces::of(loops, &arranged.dividers, self.join, self.grain);
+        let pieces = if arranged.is_plain {
+            Pieces::plain(loops)
+        } else {
+            Pieces::of(loops, &arranged.dividers, self.join, self.grain)
+        };
         add(&mut self.overlaps, pieces.copies.first().map(|&at| (pieces.copies.len(), at)));
         let pieces = pieces.all;
         let faces = Faces::new(&pieces, self.grain);

@@ -26,6 +26,8 @@ pub(super) struct Crossings {
     pub crosses: Vec<bool>,
     /// Every crossing, or as many as are listed.
     pub defects: Vec<Defect>,
+    /// Whether any curves run along each other.
+    pub are_any_along: bool,
     /// Contours that cross themselves, and in which vertices.
     pub own: BTreeMap<usize, Vec<usize>>,
     more: Option<(usize, Point)>,
@@ -36,7 +38,8 @@ impl Crossings {
     pub fn of(curves: &[Contour], grain: Grain) -> Crossings {
         let paths: Vec<&ArcSpline> = curves.iter().map(|c| &c.path).collect();
         let junctions = Junctions::of(&paths, grain);
-        let mut found = Crossings { crosses: vec![false; curves.len()], ..Crossings::default() };
+        let (crosses, are_any_along) = (vec![false; curves.len()], !junctions.course.is_empty());
+        let mut found = Crossings { crosses, are_any_along, ..Crossings::default() };
         for junction in &junctions.all {
             let mut pairs = if junction.is_shared {
                 junctions.crossings_along(junction, &paths)

@@ -20,6 +20,14 @@ fn bits(p: Point) -> (u64, u64) {
     (p.x.to_bits(), p.y.to_bits())
 }
 
+/// Whether every end is exactly in one place with another one.
+pub(super) fn all_ends_meet(paths: &[ArcSpline]) -> bool {
+    let ends = paths.iter().flat_map(|p| [p.vertices[0].point, p.vertices[p.len()].point]);
+    let mut places: Vec<(u64, u64)> = ends.map(bits).collect();
+    places.sort_unstable();
+    places.chunk_by(|a, b| a == b).all(|group| group.len() > 1)
+}
+
 /// Moves the ends of crowds to one place.
 pub(super) fn gather(paths: &mut [ArcSpline], join: f64, grain: Grain) {
     let ends: Vec<Point> =

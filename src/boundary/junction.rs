@@ -125,18 +125,36 @@ const MIDDLES: f64 = 4.0;
 
 /// For each place that is passed more than once the passages: path and number of the vertex.
 fn passages(paths: &[&ArcSpline]) -> Vec<Vec<(usize, usize)>> {
-    let mut group_of: HashMap<(u64, u64), usize> = HashMap::new();
-    let mut groups: Vec<Vec<(usize, usize)>> = Vec::new();
+    let mut all: Vec<((u64, u64), usize, usize)> = Vec::new();
     for (path, curve) in paths.iter().enumerate() {
-        for (vertex, v) in curve.vertices.iter().enumerate() {
-            let bits = (v.point.x.to_bits(), v.point.y.to_bits());
-            let group = *group_of.entry(bits).or_insert(groups.len());
-            if group == groups.len() {
-                groups.push(Vec::new());
-            }
-            groups[group].push((path, vertex));
-        }
+        let bits = curve.vertices.iter().map(|v| (v.point.x.to_bits(), v.point.y.to_bits()));
+        all.extend(bits.enumerate().map(|(vertex, bits)| (bits, path, vertex)));
     }
-    groups.retain(|g| g.len() > 1);
+    all.sort_unstable();
+    let several = all.chunk_by(|a, b| a.0 == b.0).filter(|group| group.len() > 1);
+    let mut groups: Vec<Vec<_>> =
+        several.map(|group| group.iter().map(|&(_, path, vertex)| (path, vertex)).collect()).collect();
+    groups.sort_unstable();
     groups
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::Bounds;
+
+    #[test]
+    fn elements_that_coincide_are_one_slot() {
+        let square = ArcSpline::closed([(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 0.0), (0.0, 1.0, 0.0)]);
+        let beside = ArcSpline::closed([(1.0, 1.0, 0.0), (1.0, 0.0, 0.0), (3.0, 0.0, 0.0)]);
+        let line = ArcSpline::open([(1.0, 1.0, 0.0), (2.0, 2.0, 0.0)]);
+        let grain = Grain::of(&Bounds::around([crate::geom::point(3.0, 3.0)]));
+        let found = Junctions::of(&[&square, &beside, &line], grain);
+        let slots: Vec<usize> = found.all.iter().map(|j| j.rank.len()).collect();
+        assert_eq!(slots, [3, 4]);
+        assert!(found.all.iter().all(|j| j.is_shared));
+        assert_eq!(found.course.len(), 2);
+        let end = found.all[1].strands[2];
+        assert_eq!((end.path, end.from, end.to.is_some()), (2, None, true));
+    }
 }

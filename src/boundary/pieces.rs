@@ -48,6 +48,11 @@ pub(super) struct Pieces {
 }
 
 impl Pieces {
+    /// Loops that touch at most, as they are.
+    pub fn plain(loops: Vec<Loop>) -> Pieces {
+        Pieces { all: loops.into_iter().map(Piece::plain).collect(), copies: Vec::new() }
+    }
+
     /// Cuts loops and open curves; `reach` is that of joining.
     pub fn of(loops: Vec<Loop>, dividers: &[ArcSpline], reach: f64, grain: Grain) -> Pieces {
         let mut found = Pieces::default();
@@ -58,7 +63,7 @@ impl Pieces {
         for (i, path) in paths.iter().enumerate() {
             let is_divider = i >= loops.len();
             if !is_divider && !woven[i] {
-                found.all.push(Piece::plain(&loops[i]));
+                found.all.push(Piece::plain(loops[i].clone()));
                 continue;
             }
             for path in stretches(path, i, &junctions) {
@@ -78,10 +83,9 @@ impl Pieces {
 }
 
 impl Piece {
-    fn plain(of: &Loop) -> Piece {
+    fn plain(of: Loop) -> Piece {
         let drawn_rise = i32::from(!of.loose);
-        let path = of.path.clone();
-        Piece { path, rise: 1, drawn_rise, loose: of.loose, in_loop: true, dividers: Vec::new() }
+        Piece { path: of.path, rise: 1, drawn_rise, loose: of.loose, in_loop: true, dividers: Vec::new() }
     }
 
     /// Whether it is a whole loop that nothing else takes part in.
@@ -214,4 +218,40 @@ fn same_course(a: &ArcSpline, b: &ArcSpline, reach: f64, grain: Grain) -> Option
         && lies_along(a, b)
         && lies_along(b, a);
     alike.then_some(false)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::Bounds;
+
+    fn pieces(loops: &[ArcSpline], dividers: &[ArcSpline]) -> Pieces {
+        let bounds = loops.iter().chain(dividers).fold(Bounds::EMPTY, |b, p| b.union(p.bounds()));
+        let loops = loops.iter().map(|path| Loop { path: path.clone(), loose: false }).collect();
+        Pieces::of(loops, dividers, 0.01, Grain::of(&bounds))
+    }
+
+    fn square(x: f64) -> ArcSpline {
+        ArcSpline::closed([(x, 0.0, 0.0), (x + 2.0, 0.0, 0.0), (x + 2.0, 2.0, 0.0), (x, 2.0, 0.0)])
+    }
+
+    #[test]
+    fn a_common_side_is_one_piece_without_rise() {
+        let found = pieces(&[square(0.0), square(2.0), square(9.0)], &[]);
+        let mut rises: Vec<i32> = found.all.iter().map(|p| p.rise.abs()).collect();
+        rises.sort_unstable();
+        assert_eq!((rises, found.copies.len()), (vec![0, 1, 1, 1], 1));
+        assert_eq!(found.all.iter().filter(|p| p.is_plain()).count(), 1);
+    }
+
+    #[test]
+    fn a_line_nearly_along_a_side_is_that_side_and_one_across_is_not() {
+        let along = ArcSpline::open([(0.0, 0.0, 0.0), (1.0, 0.004, 0.0), (2.0, 0.0, 0.0)]);
+        let across = ArcSpline::open([(0.0, 0.0, 0.0), (1.0, 0.1, 0.0), (2.0, 0.0, 0.0)]);
+        let found = pieces(&[square(0.0)], &[along, across]);
+        assert_eq!((found.all.len(), found.copies.len()), (3, 1));
+        let side = found.all.iter().find(|p| p.in_loop && p.path.len() == 1).expect("it is cut off");
+        assert_eq!((side.dividers.as_slice(), side.rise.abs(), side.loose), (&[0][..], 1, false));
+        assert_eq!(found.all.iter().filter(|p| !p.in_loop).count(), 1);
+    }
 }

@@ -132,4 +132,24 @@ mod tests {
         assert!(!is_flat(&ArcSpline::closed([(0.0, 0.0, 0.4), (1.0, 1.0, 0.0)]), GRAIN));
         assert!(!is_flat(&ArcSpline::circle(Point::default(), 1.0), GRAIN));
     }
+
+    #[test]
+    fn only_small_loops_are_cut_off() {
+        let path = |size: f64| {
+            ArcSpline::closed([
+                (9.0, 0.0, 0.0),
+                (9.0 + size, 0.0, 0.0),
+                (9.0, -size, 0.0),
+                (9.0, 0.0, 0.0),
+                (9.0, 3.0, 0.0),
+                (0.0, 3.0, 0.0),
+                (0.0, 0.0, 0.0),
+            ])
+        };
+        let (mut small, mut large) = (path(0.005), path(0.02));
+        assert_eq!(cut_small_loops(&mut small, &[0, 3], 0.01).len(), 1);
+        assert_eq!((small.len(), small.area()), (4, 27.0));
+        assert!(cut_small_loops(&mut large, &[0, 3], 0.01).is_empty());
+        assert_eq!(large.len(), 7);
+    }
 }

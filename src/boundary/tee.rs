@@ -251,3 +251,60 @@ fn cut(path: &ArcSpline, cuts: &[(usize, Point)]) -> Vec<ArcSpline> {
     }
     pieces
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::point;
+
+    const JOIN: f64 = 0.01;
+
+    fn attached(paths: &[ArcSpline], contours: &[ArcSpline]) -> Vec<ArcSpline> {
+        let bounds = paths.iter().chain(contours).fold(Bounds::EMPTY, |b, p| b.union(p.bounds()));
+        let contours: Vec<Contour> =
+            contours.iter().map(|p| Contour { path: p.clone(), rank: 0, loose: false }).collect();
+        let loose = Loose { paths: paths.to_vec(), ranks: vec![0; paths.len()] };
+        attach(loose, &contours, JOIN, Grain::of(&bounds)).paths
+    }
+
+    fn line(a: (f64, f64), b: (f64, f64)) -> ArcSpline {
+        ArcSpline::open([(a.0, a.1, 0.0), (b.0, b.1, 0.0)])
+    }
+
+    #[test]
+    fn a_line_is_cut_where_another_one_ends_on_it() {
+        let found = attached(&[line((0.0, 0.0), (10.0, 0.0)), line((4.0, 0.007), (4.0, 5.0))], &[]);
+        let expected =
+            [line((0.0, 0.0), (4.0, 0.0)), line((4.0, 0.0), (10.0, 0.0)), line((4.0, 0.0), (4.0, 5.0))];
+        assert_eq!(found, expected);
+    }
+
+    #[test]
+    fn an_end_beyond_reach_stays_and_contours_are_not_cut() {
+        let far = [line((0.0, 0.0), (10.0, 0.0)), line((4.0, 0.02), (4.0, 5.0))];
+        assert_eq!(attached(&far, &[]), far);
+        let circle = ArcSpline::circle(point(0.0, 0.0), 3.0);
+        let found = attached(&[line((3.005, 0.0), (9.0, 0.0))], std::slice::from_ref(&circle));
+        assert_eq!(found, [line((3.0, 0.0), (9.0, 0.0))]);
+    }
+
+    #[test]
+    fn lines_that_overshoot_each_other_end_where_they_cross() {
+        let found = attached(&[line((-0.009, 0.0), (9.0, 0.0)), line((0.0, 9.0), (0.0, -0.009))], &[]);
+        assert_eq!(found, [line((0.0, 0.0), (9.0, 0.0)), line((0.0, 9.0), (0.0, 0.0))]);
+    }
+
+    #[test]
+    fn a_curve_that_comes_back_to_itself_is_cut_there() {
+        let six = ArcSpline::open([
+            (0.0, 9.0, 0.0),
+            (0.0, 0.0, 0.0),
+            (5.0, 0.0, 0.0),
+            (5.0, 4.0, 0.0),
+            (0.001, 4.0, 0.0),
+        ]);
+        let found = attached(&[six], &[]);
+        assert_eq!(found.iter().map(ArcSpline::len).collect::<Vec<_>>(), [1, 4]);
+        assert_eq!(found[1].vertices[4].point, point(0.0, 4.0));
+    }
+}
