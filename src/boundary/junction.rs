@@ -33,6 +33,9 @@ pub(super) struct Junction {
     pub is_shared: bool,
 }
 
+/// An element between two junctions, the lower one first: its bulge from there, its path and number.
+type Between = (usize, usize, f64, (usize, usize), Element);
+
 /// All junctions of some paths.
 #[derive(Debug, Default)]
 pub(super) struct Junctions {
@@ -58,7 +61,7 @@ impl Junctions {
     }
 
     fn find_courses(&mut self, paths: &[&ArcSpline], grain: Grain) {
-        let mut between: Vec<(usize, usize, f64, (usize, usize), Element)> = Vec::new();
+        let mut between: Vec<Between> = Vec::new();
         for &(path, v) in self.at.keys() {
             let n = paths[path].vertices.len();
             let next = (path, (v + 1) % n);

@@ -40,11 +40,11 @@ pub(super) fn dividers(
     let mut open: Vec<usize> = (0..nodes.len()).collect();
     while let Some(node) = open.pop() {
         let mut held = ends[node].iter().copied().filter(|&end| kept[end / 2]);
-        if let (Some(end), None) = (held.next(), held.next()) {
-            if !on_contour[end] {
-                kept[end / 2] = false;
-                open.push(node_of[end ^ 1] as usize);
-            }
+        if let (Some(end), None) = (held.next(), held.next())
+            && !on_contour[end]
+        {
+            kept[end / 2] = false;
+            open.push(node_of[end ^ 1] as usize);
         }
     }
     let mut kept = kept.into_iter();

@@ -49,11 +49,12 @@ pub(super) fn cut_small_loops(path: &mut ArcSpline, crossed: &[usize], reach: f6
     for &vertex in &path.vertices {
         let bits = bits_of(&vertex);
         let since = passed.get(&bits).copied().filter(|&i| kept.get(i).is_some_and(|v| bits_of(v) == bits));
-        if let Some(since) = since.filter(|_| at_crossing.contains(&bits)) {
-            if is_small(&kept[since..], vertex.point) {
-                kept.truncate(since);
-                places.push(vertex.point);
-            }
+        if let Some(since) = since
+            && at_crossing.contains(&bits)
+            && is_small(&kept[since..], vertex.point)
+        {
+            kept.truncate(since);
+            places.push(vertex.point);
         }
         passed.insert(bits, kept.len());
         kept.push(vertex);
