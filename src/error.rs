@@ -107,6 +107,30 @@ pub enum Defect {
         /// Where one of them begins.
         at: Point,
     },
+    /// Stretches of curves that lie on others; they count once.
+    #[error("{count} stretches of curves lie on others and count once, one at {at}")]
+    Overlaps {
+        /// How many there are.
+        count: usize,
+        /// Where one of them begins.
+        at: Point,
+    },
+    /// Open curves that end on other curves and make several parts of one contour.
+    #[error("{count} open curves end on other curves and divide what is in them, one at {at}")]
+    Divided {
+        /// How many there are.
+        count: usize,
+        /// A place on one of them.
+        at: Point,
+    },
+    /// Loops smaller than the join tolerance, by which contours crossed themselves; they were cut off.
+    #[error("{count} loops smaller than --join were cut off, one at {at}")]
+    Healed {
+        /// How many there were.
+        count: usize,
+        /// Where one of them began.
+        at: Point,
+    },
     /// Contours that cross; the whole nest around them was left out.
     #[error("contours cross at {at}")]
     Crossing {
@@ -155,6 +179,9 @@ impl Defect {
         match self {
             Defect::OpenContour { start, .. } => *start,
             Defect::Duplicates { at, .. }
+            | Defect::Overlaps { at, .. }
+            | Defect::Divided { at, .. }
+            | Defect::Healed { at, .. }
             | Defect::Crossing { at }
             | Defect::SelfCrossing { at }
             | Defect::MoreCrossings { at, .. }
@@ -171,6 +198,11 @@ impl Defect {
                 format!("close the contour in the drawing, or try --join {:.4}", gap * 1.01)
             }
             Defect::Duplicates { .. } => "nothing to do; equal curves count once".into(),
+            Defect::Overlaps { .. } => "nothing to do, unless a curve is missing or doubled there".into(),
+            Defect::Divided { .. } => {
+                "each part is a pocket of its own; if the curves are no walls, remove them or select with --layer".into()
+            }
+            Defect::Healed { .. } => "nothing to do, unless the loops are meant: then choose a smaller --join".into(),
             Defect::NotOnePocket { .. } => "make one pocket of each outer loop with its islands".into(),
             Defect::Crossing { .. } | Defect::SelfCrossing { .. } | Defect::MoreCrossings { .. } => {
                 "trim the curves in the drawing so that contours touch at most, or select with --layer".into()

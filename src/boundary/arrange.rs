@@ -1,6 +1,6 @@
 //! Contours that meet get a vertex where they do.
 //!
-//! **Needs** closed contours of clean elements. **Guarantees** that contours have no common places
+//! **Needs** contours of clean elements, open ones among them. **Guarantees** that contours have no common places
 //! but common vertices, equal to the last bit, and elements that coincide from end to end. **Does
 //! not** change a contour by more than the round-off.
 //!
@@ -85,8 +85,8 @@ fn meetings(elements: &[Element], grain: Grain) -> Result<Vec<Meeting>, Error> {
     Ok(found)
 }
 
-/// Pairs of elements whose boxes, piece by piece, come nearer than the round-off.
-fn near_pairs(elements: &[Element], grain: Grain) -> Result<Vec<(u32, u32)>, Error> {
+/// Boxes of elements, grown by a margin, of long ones in pieces; each with the number of its element.
+pub(super) fn filed(elements: &[Element], margin: f64) -> (Vec<Bounds>, Vec<u32>) {
     let mean = elements.iter().map(Element::length).sum::<f64>() / elements.len().max(1) as f64;
     let mut owners = Vec::with_capacity(2 * elements.len());
     let mut boxes = Vec::with_capacity(2 * elements.len());
@@ -95,10 +95,16 @@ fn near_pairs(elements: &[Element], grain: Grain) -> Result<Vec<(u32, u32)>, Err
         for piece in 0..count {
             let part = |k: usize| k as f64 / count as f64;
             let piece = if count == 1 { *e } else { e.part(part(piece), part(piece + 1)) };
-            boxes.push(piece.bounds().grown(grain.same));
+            boxes.push(piece.bounds().grown(margin));
             owners.push(i as u32);
         }
     }
+    (boxes, owners)
+}
+
+/// Pairs of elements whose boxes, piece by piece, come nearer than the round-off.
+fn near_pairs(elements: &[Element], grain: Grain) -> Result<Vec<(u32, u32)>, Error> {
+    let (boxes, owners) = filed(elements, grain.same);
     let tree = Index::new(&boxes);
     let mut pairs = Vec::new();
     for (piece, &i) in owners.iter().enumerate() {
@@ -126,11 +132,11 @@ fn unite(elements: &[Element], meetings: &mut [Meeting], grain: Grain) {
     }
     let near = Index::new(&meetings.iter().map(|m| grain.around(m.place)).collect::<Vec<_>>());
     let mut places: Vec<Point> = Vec::new();
-    for e in elements {
+    for p in elements.iter().flat_map(|e| [e.start, e.end]) {
         let mut wanted = false;
-        near.meeting(&Bounds { min: e.start, max: e.start }, |_| wanted = true);
+        near.meeting(&Bounds { min: p, max: p }, |_| wanted = true);
         if wanted {
-            places.push(e.start);
+            places.push(p);
         }
     }
     let vertices = places.len();
@@ -161,7 +167,8 @@ fn with_vertices(path: &ArcSpline, first: usize, mut meetings: &[Meeting]) -> Ar
         push(at, from, 1.0);
         meetings = &meetings[own..];
     }
-    ArcSpline { vertices, closed: true }
+    vertices.extend(path.vertices.last().filter(|_| !path.closed));
+    ArcSpline { vertices, closed: path.closed }
 }
 
 #[cfg(test)]
@@ -171,8 +178,11 @@ mod tests {
 
     fn arranged(paths: &[ArcSpline]) -> Vec<ArcSpline> {
         let bounds = paths.iter().fold(Bounds::EMPTY, |b, p| b.union(p.bounds()));
-        let mut contours: Vec<Contour> =
-            paths.iter().enumerate().map(|(rank, p)| Contour { path: p.clone(), rank }).collect();
+        let mut contours: Vec<Contour> = paths
+            .iter()
+            .enumerate()
+            .map(|(rank, p)| Contour { path: p.clone(), rank, loose: false })
+            .collect();
         arrange(&mut contours, Grain::of(&bounds)).expect("there are few pairs");
         contours.into_iter().map(|c| c.path).collect()
     }

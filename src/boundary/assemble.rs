@@ -9,14 +9,17 @@ use super::chain::{Contour, OpenChain, chain};
 use super::clean::{clean, is_usable, rough_bounds, some_place};
 use super::crossing::Crossings;
 use super::duplicate::Seen;
+use super::faces::Faces;
+use super::gather::{all_ends_meet, gather};
 use super::grain::Grain;
-use super::nest::Nest;
-use super::ray::{Rays, turned};
-use super::simple::{has_area, inner_place, is_flat, simple_loops};
+use super::loose::dividers;
+use super::pieces::{Loop, Pieces};
+use super::regions::{Nests, pockets};
+use super::simple::{cut_small_loops, has_area, is_flat, simple_loops};
+use super::tee::{Loose, attach};
 use super::{Pocket, Pockets};
 use crate::error::{Defect, Error};
-use crate::geom::{ArcSpline, Bounds};
-use std::collections::BTreeMap;
+use crate::geom::{ArcSpline, Bounds, Point};
 
 /// Pockets of some paths, with their ranks as places in the drawing.
 pub(super) fn assemble<'a>(
@@ -29,39 +32,45 @@ pub(super) fn assemble<'a>(
     }
     let usable = paths.clone().filter(|p| is_usable(p));
     let grain = Grain::of(&usable.fold(Bounds::EMPTY, |b, p| b.union(rough_bounds(p))));
-    let mut drawing = Drawing { grain, defects: Vec::new(), seen: Seen::new(grain) };
-    let (mut contours, open) = drawing.contours(paths, join);
-    arrange(&mut contours, grain)?;
-    drawing.drop_copies_and_lines(&mut contours);
-    let mut crossings = Crossings::of(&contours, grain);
-    drawing.defects.append(&mut crossings.defects);
-    let (crossing, simple): (Vec<_>, Vec<_>) =
-        contours.into_iter().zip(crossings.crosses).partition(|(_, crosses)| *crosses);
-    let loops = drawing.loops(simple.into_iter().map(|(contour, _)| contour));
-    let nest = Nest::new(&loops, grain);
-    let crossing: Vec<ArcSpline> = crossing.into_iter().map(|(c, _)| c.path).collect();
-    let left_out = left_out(&loops, &nest, &crossing, from_depth);
-    drawing.report_open(&open, &nest, from_depth);
-    drawing.defects.extend(drawing.seen.duplicates.take());
-    let pockets = pockets(loops, &nest, &left_out, from_depth);
+    let seen = Seen::new(grain, join);
+    let mut drawing = Drawing { grain, join, defects: Vec::new(), seen, overlaps: None, healed: None };
+    let (contours, open) = drawing.contours(paths);
+    let (lines, rest) = dividers(open, &contours, join, grain);
+    let mut arranged = drawing.arranged(contours, lines, rest)?;
+    let pockets = drawing.pockets(&mut arranged, from_depth);
+    drawing.report();
     Ok(Pockets { pockets, defects: drawing.defects })
 }
 
 /// What is known of a drawing on the way.
 struct Drawing {
     grain: Grain,
+    join: f64,
     defects: Vec<Defect>,
     seen: Seen,
+    /// How many stretches lie on others, and where one of them does.
+    overlaps: Option<(usize, Point)>,
+    /// How many small loops were cut off, and where one of them was.
+    healed: Option<(usize, Point)>,
+}
+
+/// A drawing whose curves have common vertices where they meet.
+struct Arranged {
+    loops: Vec<Loop>,
+    /// Whether loops touch at most, and nothing divides them.
+    is_plain: bool,
+    /// Contours that cross.
+    crossing: Vec<ArcSpline>,
+    /// Open curves that may divide contours.
+    dividers: Vec<ArcSpline>,
+    /// Open curves that may not.
+    rest: Vec<ArcSpline>,
 }
 
 impl Drawing {
     /// Closed contours in the order of the drawing, and what does not close.
-    fn contours<'a>(
-        &mut self,
-        paths: impl Iterator<Item = &'a ArcSpline>,
-        join: f64,
-    ) -> (Vec<Contour>, Vec<OpenChain>) {
-        let (mut contours, mut loose, mut ranks) = (Vec::new(), Vec::new(), Vec::new());
+    fn contours<'a>(&mut self, paths: impl Iterator<Item = &'a ArcSpline>) -> (Vec<Contour>, Vec<OpenChain>) {
+        let (mut contours, mut loose) = (Vec::new(), Loose::default());
         for (rank, path) in paths.enumerate() {
             if !is_usable(path) {
                 self.defects.push(Defect::Coordinate { at: some_place(path) });
@@ -72,14 +81,15 @@ impl Drawing {
                 self.report_point(path);
             } else if self.seen.is_new(&cleaned) {
                 if cleaned.closed {
-                    contours.push(Contour { path: cleaned, rank });
+                    contours.push(Contour { path: cleaned, rank, loose: false });
                 } else {
-                    loose.push(cleaned);
-                    ranks.push(rank);
+                    loose.paths.push(cleaned);
+                    loose.ranks.push(rank);
                 }
             }
         }
-        let (chained, open) = chain(&loose, &ranks, join, self.grain);
+        let loose = self.attached(loose, &contours);
+        let (chained, open) = chain(&loose.paths, &loose.ranks, self.join, self.grain);
         for contour in chained {
             let path = clean(&contour.path, self.grain);
             if path.is_empty() {
@@ -92,6 +102,31 @@ impl Drawing {
         (contours, open)
     }
 
+    /// Open curves whose ends lie on the curves that they end on.
+    fn attached(&mut self, loose: Loose, contours: &[Contour]) -> Loose {
+        if all_ends_meet(&loose.paths) {
+            return loose;
+        }
+        let mut loose = loose;
+        gather(&mut loose.paths, self.join, self.grain);
+        let count = loose.paths.len();
+        let attached = attach(loose, contours, self.join, self.grain);
+        if attached.paths.len() == count {
+            return attached;
+        }
+        let mut seen = Seen::new(self.grain, self.join);
+        let mut found = Loose::default();
+        for (path, rank) in attached.paths.iter().zip(attached.ranks) {
+            let path = clean(path, self.grain);
+            if !path.is_empty() && seen.is_new(&path) {
+                found.paths.push(path);
+                found.ranks.push(rank);
+            }
+        }
+        add(&mut self.overlaps, seen.copies);
+        found
+    }
+
     /// A closed path without length is a fault; an open one is nothing.
     fn report_point(&mut self, path: &ArcSpline) {
         if path.closed && !path.vertices.is_empty() {
@@ -99,93 +134,157 @@ impl Drawing {
         }
     }
 
+    /// Loops and open curves with common vertices; contours that cross apart.
+    fn arranged(
+        &mut self,
+        contours: Vec<Contour>,
+        lines: Vec<ArcSpline>,
+        mut rest: Vec<ArcSpline>,
+    ) -> Result<Arranged, Error> {
+        let mut curves = contours.clone();
+        let open = lines.iter().cloned().map(|path| Contour { path, rank: usize::MAX, loose: true });
+        curves.extend(open);
+        if let Err(error) = arrange(&mut curves, self.grain) {
+            if lines.is_empty() {
+                return Err(error);
+            }
+            // Without the open curves it may be less.
+            curves = contours;
+            arrange(&mut curves, self.grain)?;
+            rest.extend(lines);
+        }
+        curves.retain(|c| c.path.closed || !c.path.is_empty());
+        self.drop_copies_and_lines(&mut curves);
+        let mut crossings = Crossings::of(&curves, self.grain);
+        if self.heal(&mut curves, &crossings) {
+            crossings = Crossings::of(&curves, self.grain);
+        }
+        self.defects.append(&mut crossings.defects);
+        let (mut crossing, mut simple, mut dividers) = (Vec::new(), Vec::new(), Vec::new());
+        for (curve, crosses) in curves.into_iter().zip(crossings.crosses) {
+            match (curve.path.closed, crosses) {
+                (true, true) => crossing.push(curve.path),
+                (true, false) => simple.push(curve),
+                (false, true) => rest.push(curve.path),
+                (false, false) => dividers.push(curve.path),
+            }
+        }
+        let is_plain = dividers.is_empty() && !crossings.are_any_along;
+        Ok(Arranged { loops: self.loops(simple), is_plain, crossing, dividers, rest })
+    }
+
     /// Once contours share their vertices, copies of contours drawn with others are equal too.
-    fn drop_copies_and_lines(&mut self, contours: &mut Vec<Contour>) {
-        let mut seen = Seen::new(self.grain);
-        seen.duplicates = self.seen.duplicates.take();
-        contours.retain(|c| {
-            if is_flat(&c.path, self.grain) {
+    fn drop_copies_and_lines(&mut self, curves: &mut Vec<Contour>) {
+        let mut seen = Seen::new(self.grain, 0.0);
+        seen.copies = self.seen.copies;
+        curves.retain(|c| {
+            if c.path.closed && is_flat(&c.path, self.grain) {
                 self.defects.extend(c.path.vertices.first().map(|v| Defect::NoArea { at: v.point }));
                 return false;
             }
-            seen.is_new(&c.path)
+            !c.path.closed || seen.is_new(&c.path)
         });
         self.seen = seen;
     }
 
-    /// Simple loops, counter-clockwise.
-    fn loops(&mut self, contours: impl Iterator<Item = Contour>) -> Vec<ArcSpline> {
-        let mut loops = Vec::new();
-        for path in contours.flat_map(|c| simple_loops(&c.path)) {
-            if !has_area(&path, self.grain) {
-                self.defects.extend(path.vertices.first().map(|v| Defect::NoArea { at: v.point }));
-            } else {
-                loops.push(if path.area() < 0.0 { path.reversed() } else { path });
+    /// Cuts loops smaller than the reach off contours that cross themselves; answers whether any was.
+    fn heal(&mut self, curves: &mut [Contour], crossings: &Crossings) -> bool {
+        let mut places = Vec::new();
+        for (&curve, crossed) in &crossings.own {
+            let path = &mut curves[curve].path;
+            if path.closed {
+                places.extend(cut_small_loops(path, crossed, self.join));
             }
+        }
+        add(&mut self.healed, places.first().map(|&at| (places.len(), at)));
+        !places.is_empty()
+    }
+
+    /// Simple loops, counter-clockwise.
+    fn loops(&mut self, contours: Vec<Contour>) -> Vec<Loop> {
+        let mut loops = Vec::new();
+        let mut is_cut = false;
+        for contour in contours {
+            let simple = simple_loops(&contour.path);
+            let count = simple.len();
+            is_cut |= count > 1;
+            for path in simple {
+                if has_area(&path, self.grain) {
+                    let path = if path.area() < 0.0 { path.reversed() } else { path };
+                    loops.push(Loop { path, loose: contour.loose });
+                } else if let Some(v) = path.vertices.first() {
+                    // A way there and back between other loops of a contour is a bridge.
+                    if count > 1 && is_flat(&path, self.grain) {
+                        add(&mut self.overlaps, Some((1, v.point)));
+                    } else {
+                        self.defects.push(Defect::NoArea { at: v.point });
+                    }
+                }
+            }
+        }
+        if is_cut {
+            let mut seen = Seen::new(self.grain, 0.0);
+            loops.retain(|l| seen.is_new(&l.path));
+            add(&mut self.overlaps, seen.copies);
         }
         loops
     }
 
-    fn report_open(&mut self, open: &[OpenChain], nest: &Nest, from_depth: usize) {
-        let is_pocket = |depth: usize| depth >= from_depth && (depth - from_depth).is_multiple_of(2);
-        self.defects.extend(open.iter().map(|chain| {
-            let around = nest.around(chain.middle);
-            chain.defect(around.is_some_and(|i| is_pocket(nest.depth[i])))
+    fn pockets(&mut self, arranged: &mut Arranged, from_depth: usize) -> Vec<Pocket> {
+        let loops = std::mem::take(&mut arranged.loops);
+        let pieces = if arranged.is_plain {
+            Pieces::plain(loops)
+        } else {
+            Pieces::of(loops, &arranged.dividers, self.join, self.grain)
+        };
+        add(&mut self.overlaps, pieces.copies.first().map(|&at| (pieces.copies.len(), at)));
+        let pieces = pieces.all;
+        let faces = Faces::new(&pieces, self.grain);
+        let nests = Nests::new(&pieces, &faces, from_depth);
+        let left_out = nests.left_out(&pieces, &faces, &arranged.crossing);
+        let (mut along, mut between) =
+            (vec![false; arranged.dividers.len()], vec![false; arranged.dividers.len()]);
+        for (i, piece) in pieces.iter().enumerate() {
+            let sides = [faces.left(i), faces.right(i)];
+            let divides = sides[0] != sides[1]
+                && sides.iter().any(|&s| nests.is_pocket(&faces, s) || faces.depth[s] <= from_depth);
+            for &divider in &piece.dividers {
+                along[divider] |= piece.in_loop;
+                between[divider] |= divides && !piece.in_loop;
+            }
+        }
+        let dividing = arranged.dividers.iter().zip(&between).filter(|(_, b)| **b);
+        let places: Vec<Point> = dividing.map(|(path, _)| path.element(path.len() / 2).midpoint()).collect();
+        let count = places.len();
+        self.defects.extend(places.first().map(|&at| Defect::Divided { count, at }));
+        let mut unused = std::mem::take(&mut arranged.rest);
+        let idle = arranged.dividers.drain(..).enumerate().filter(|(i, _)| !along[*i] && !between[*i]);
+        unused.extend(idle.map(|(_, path)| path));
+        self.report_open(&unused, |p| nests.is_pocket(&faces, faces.around(p)));
+        pockets(&pieces, &faces, |face| nests.is_pocket(&faces, face) && !left_out[face])
+    }
+
+    fn report_open(&mut self, curves: &[ArcSpline], is_in_pocket: impl Fn(Point) -> bool) {
+        let (closed, open) = chain(curves, &vec![0; curves.len()], self.join, self.grain);
+        self.defects.extend(open.iter().map(|chain| chain.defect(is_in_pocket(chain.middle))));
+        // What closes only without what it crosses.
+        self.defects.extend(closed.iter().map(|c| {
+            let (start, middle) = (c.path.vertices[0].point, c.path.element(0).midpoint());
+            Defect::OpenContour { start, end: start, gap: 0.0, inside: is_in_pocket(middle) }
         }));
     }
+
+    /// What was counted on the way.
+    fn report(&mut self) {
+        self.defects.extend(self.overlaps.map(|(count, at)| Defect::Overlaps { count, at }));
+        self.defects.extend(self.healed.map(|(count, at)| Defect::Healed { count, at }));
+        self.defects.extend(self.seen.defect());
+    }
 }
 
-/// For each loop whether it is in a nest with contours that cross. Nests begin where pockets do: a
-/// crossing in the outline of a part does no harm to the pockets in it.
-fn left_out(loops: &[ArcSpline], nest: &Nest, crossing: &[ArcSpline], from_depth: usize) -> Vec<bool> {
-    let outermost = outermost(nest, from_depth);
-    let mut out = vec![false; loops.len()];
-    if crossing.is_empty() {
-        return out;
+/// Adds to a count with a place.
+fn add(to: &mut Option<(usize, Point)>, more: Option<(usize, Point)>) {
+    if let Some((count, at)) = more {
+        to.get_or_insert((0, at)).0 += count;
     }
-    for path in crossing {
-        if let Some(i) = nest.around(inner_place(path)) {
-            out[outermost[i]] = true;
-        }
-    }
-    let rays = Rays::new(crossing.iter().enumerate());
-    for (i, path) in loops.iter().enumerate() {
-        if outermost[i] == i && !out[i] {
-            let mut windings: BTreeMap<usize, i32> = BTreeMap::new();
-            rays.all(turned(inner_place(path)), |hit| {
-                *windings.entry(hit.owner).or_default() += if hit.from_left { 1 } else { -1 };
-            });
-            out[i] = windings.values().any(|&w| w != 0);
-        }
-    }
-    outermost.into_iter().map(|i| out[i]).collect()
-}
-
-/// For each loop the outermost one around it that may be a pocket.
-fn outermost(nest: &Nest, from_depth: usize) -> Vec<usize> {
-    let mut by_depth: Vec<usize> = (0..nest.depth.len()).collect();
-    by_depth.sort_by_key(|&i| nest.depth[i]);
-    let mut outermost: Vec<usize> = (0..by_depth.len()).collect();
-    for i in by_depth {
-        let parent = nest.parent(i).filter(|&p| nest.depth[p] >= from_depth);
-        outermost[i] = parent.map_or(i, |p| outermost[p]);
-    }
-    outermost
-}
-
-fn pockets(loops: Vec<ArcSpline>, nest: &Nest, left_out: &[bool], from_depth: usize) -> Vec<Pocket> {
-    let begins = |i: usize| {
-        let depth = nest.depth[i];
-        depth >= from_depth && (depth - from_depth).is_multiple_of(2) && !left_out[i]
-    };
-    let mut islands: Vec<Vec<ArcSpline>> = vec![Vec::new(); loops.len()];
-    for (i, path) in loops.iter().enumerate() {
-        if let Some(parent) = nest.parent(i).filter(|&p| begins(p)) {
-            islands[parent].push(path.reversed());
-        }
-    }
-    let all = loops.into_iter().zip(islands).enumerate();
-    all.filter(|(i, _)| begins(*i))
-        .map(|(_, (outer, islands))| Pocket::from_checked(outer, islands))
-        .collect()
 }

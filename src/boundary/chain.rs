@@ -19,6 +19,8 @@ pub(super) struct Contour {
     pub path: ArcSpline,
     /// The first curve that it is made of.
     pub rank: usize,
+    /// Whether it was drawn as loose curves, and so has no identity where others meet it.
+    pub loose: bool,
 }
 
 /// A chain that does not close.
@@ -30,6 +32,8 @@ pub(super) struct OpenChain {
     pub middle: Point,
     /// The reach that would close it.
     pub gap: f64,
+    /// Its curves, with their ends where they were joined.
+    pub curves: Vec<ArcSpline>,
 }
 
 impl OpenChain {
@@ -58,7 +62,8 @@ pub(super) fn chain(
     for curve in 0..paths.len() {
         if !walked[curve] {
             let ends = links.walk(2 * curve as End, &mut walked);
-            contours.push(Contour { path: links.contour(&ends), rank: ranks[curve] });
+            let loose = ends.len() > 1;
+            contours.push(Contour { path: links.contour(&ends), rank: ranks[curve], loose });
         }
     }
     measure_gaps(&mut open, join);
@@ -78,8 +83,9 @@ impl<'a> Links<'a> {
         let place = (0..2 * paths.len() as End).map(|e| ends.place(e)).collect();
         let mut links = Links { paths, next: vec![None; 2 * paths.len()], place };
         for (kept, dropped) in ends.meetings() {
-            let node = middle(kept.iter().map(|&e| ends.place(e)));
-            kept.iter().for_each(|&e| links.place[e as usize] = node);
+            let first = if kept.is_empty() { &dropped } else { &kept };
+            let node = middle(first.iter().map(|&e| ends.place(e)));
+            kept.iter().chain(&dropped).for_each(|&e| links.place[e as usize] = node);
             if kept.len() > 2 {
                 links.join_fan(&kept, ends);
             } else {
@@ -148,7 +154,17 @@ impl<'a> Links<'a> {
             ends: [self.place[first as usize], self.place[last as usize]],
             middle: halfway.element(halfway.len() / 2).midpoint(),
             gap: 0.0,
+            curves: entered.iter().map(|&end| self.curve(curve_of(end))).collect(),
         }
+    }
+
+    /// A curve with its ends where they were joined.
+    fn curve(&self, curve: usize) -> ArcSpline {
+        let mut path = self.paths[curve].clone();
+        let last = path.vertices.len() - 1;
+        path.vertices[0].point = self.place[2 * curve];
+        path.vertices[last].point = self.place[2 * curve + 1];
+        path
     }
 }
 

@@ -1,104 +1,79 @@
 //! Which contours cross, and where.
 //!
-//! **Needs** contours whose common places are common vertices. **Guarantees** that contours that
-//! are not marked neither cross each other or themselves nor run along each other; where they
-//! touch in a vertex, all stay on their sides.
+//! **Needs** contours whose common places are common vertices; open curves may be among them.
+//! **Guarantees** that contours that are not marked cross neither each other nor themselves, and that
+//! open curves that are not marked cross no contour. Contours may touch in vertices and run along
+//! each other: each stays on its side. **Does not** mind open curves that cross each other.
 //!
 //! **Method.** A contour passes a vertex on a strand. Around a vertex with several strands the
-//! ends of strands that do not cross nest like brackets.
+//! ends of strands that do not cross nest like brackets. Two strands that leave a vertex along the
+//! same element are followed to where they part: they cross if they have changed sides.
 
 use super::chain::Contour;
-use super::fan::Fan;
 use super::grain::Grain;
+use super::junction::{Junction, Junctions, Strand};
 use crate::error::Defect;
-use crate::geom::{ArcSpline, Element, Point};
-use std::collections::{BTreeMap, HashMap};
+use crate::geom::{ArcSpline, Point};
+use std::collections::BTreeMap;
 
 /// Crossings that are listed; of the others only their number is told.
 const LISTED: usize = 100;
 
-/// A passage through a vertex: the path and the number of its vertex.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Strand {
-    pub path: usize,
-    pub vertex: usize,
-}
-
-/// A place that is passed more than once.
-#[derive(Clone, Debug)]
-pub(super) struct Junction {
-    pub place: Point,
-    pub strands: Vec<Strand>,
-    /// Branches around it: `2 s` is where strand `s` leaves, `2 s + 1` where it comes from.
-    pub fan: Fan,
-}
-
-/// All places that closed paths pass more than once, in the order of their first passages.
-pub(super) fn junctions<'a>(
-    paths: impl Fn(usize) -> &'a ArcSpline,
-    count: usize,
-    grain: Grain,
-) -> Vec<Junction> {
-    let mut group_of: HashMap<(u64, u64), usize> = HashMap::new();
-    let mut groups: Vec<Vec<Strand>> = Vec::new();
-    for path in 0..count {
-        for (vertex, v) in paths(path).vertices.iter().enumerate() {
-            let bits = (v.point.x.to_bits(), v.point.y.to_bits());
-            let group = *group_of.entry(bits).or_insert(groups.len());
-            if group == groups.len() {
-                groups.push(Vec::new());
-            }
-            groups[group].push(Strand { path, vertex });
-        }
-    }
-    let several = groups.into_iter().filter(|g| g.len() > 1);
-    several
-        .map(|strands| {
-            let branches: Vec<Element> =
-                strands.iter().flat_map(|s| branches(paths(s.path), s.vertex)).collect();
-            Junction { place: branches[0].start, fan: Fan::new(&branches, grain.same), strands }
-        })
-        .collect()
-}
-
-/// The two elements at a vertex, both running away from it.
-fn branches(path: &ArcSpline, vertex: usize) -> [Element; 2] {
-    let n = path.len();
-    [path.element(vertex), path.element((vertex + n - 1) % n).reversed()]
-}
-
-/// Contours that cross or run along each other or themselves.
+/// Contours that cross each other or themselves, and open curves that cross contours.
 #[derive(Debug, Default)]
 pub(super) struct Crossings {
-    /// Whether each contour takes part in a crossing.
+    /// Whether each curve takes part in a crossing, or shares a side with a contour that does.
     pub crosses: Vec<bool>,
     /// Every crossing, or as many as are listed.
     pub defects: Vec<Defect>,
+    /// Whether any curves run along each other.
+    pub are_any_along: bool,
+    /// Contours that cross themselves, and in which vertices.
+    pub own: BTreeMap<usize, Vec<usize>>,
     more: Option<(usize, Point)>,
 }
 
 impl Crossings {
-    /// Finds all crossings of contours that have been arranged.
-    pub fn of(contours: &[Contour], grain: Grain) -> Crossings {
-        let junctions = junctions(|i| &contours[i].path, contours.len(), grain);
-        let mut found = Crossings { crosses: vec![false; contours.len()], ..Crossings::default() };
-        let overlaps = overlaps(contours, &junctions, grain);
-        overlaps.iter().for_each(|(&(a, b), &place)| found.note(a, b, place));
-        for junction in &junctions {
-            for (a, b) in junction.crossings() {
-                // Where branches coincide, their order means nothing.
-                if !(junction.fan.ambiguous && overlaps.contains_key(&(a, b))) {
-                    found.note(a, b, junction.place);
+    /// Finds all crossings of curves that have been arranged.
+    pub fn of(curves: &[Contour], grain: Grain) -> Crossings {
+        let paths: Vec<&ArcSpline> = curves.iter().map(|c| &c.path).collect();
+        let junctions = Junctions::of(&paths, grain);
+        let (crosses, are_any_along) = (vec![false; curves.len()], !junctions.course.is_empty());
+        let mut found = Crossings { crosses, are_any_along, ..Crossings::default() };
+        for junction in &junctions.all {
+            let mut pairs = if junction.is_shared {
+                junctions.crossings_along(junction, &paths)
+            } else {
+                junction.crossings()
+            };
+            for &(s, t) in &pairs {
+                if junction.strands[s].path == junction.strands[t].path {
+                    let vertices = [s, t].map(|s| junction.strands[s].vertex);
+                    found.own.entry(junction.strands[s].path).or_default().extend(vertices);
                 }
             }
+            pairs.iter_mut().for_each(|(s, t)| {
+                let (a, b) = (junction.strands[*s].path, junction.strands[*t].path);
+                (*s, *t) = (a.min(b), a.max(b));
+            });
+            pairs.sort_unstable();
+            pairs.dedup();
+            pairs.into_iter().for_each(|(a, b)| found.note(&paths, a, b, junction.place));
         }
+        found.spread(&junctions);
         if let Some((count, at)) = found.more {
             found.defects.push(Defect::MoreCrossings { count, at });
         }
         found
     }
 
-    fn note(&mut self, a: usize, b: usize, at: Point) {
+    fn note(&mut self, paths: &[&ArcSpline], a: usize, b: usize, at: Point) {
+        if !paths[a].closed || !paths[b].closed {
+            // Only an open curve gives way, and only to a contour.
+            self.crosses[a] |= !paths[a].closed && paths[b].closed;
+            self.crosses[b] |= !paths[b].closed && paths[a].closed;
+            return;
+        }
         self.crosses[a] = true;
         self.crosses[b] = true;
         if self.defects.len() < LISTED {
@@ -107,57 +82,157 @@ impl Crossings {
             self.more.get_or_insert((0, at)).0 += 1;
         }
     }
+
+    /// Without a contour that crosses, what shares a side with it is not what was drawn either.
+    fn spread(&mut self, junctions: &Junctions) {
+        let mut along: Vec<(usize, usize)> =
+            junctions.course.iter().map(|(&(path, _), &course)| (course, path)).collect();
+        along.sort_unstable();
+        along.dedup();
+        let mut pairs: Vec<(usize, usize)> =
+            along.windows(2).filter(|w| w[0].0 == w[1].0).map(|w| (w[0].1, w[1].1)).collect();
+        pairs.sort_unstable();
+        pairs.dedup();
+        let mut beside: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        for (a, b) in pairs {
+            beside.entry(a).or_default().push(b);
+            beside.entry(b).or_default().push(a);
+        }
+        let mut open: Vec<usize> = beside.keys().copied().filter(|&i| self.crosses[i]).collect();
+        while let Some(i) = open.pop() {
+            for &j in &beside[&i] {
+                if !std::mem::replace(&mut self.crosses[j], true) {
+                    open.push(j);
+                }
+            }
+        }
+    }
 }
 
 impl Junction {
-    /// Pairs of paths whose strands cross here, each once.
+    /// Pairs of strands that cross here, where no two branches are in one slot.
     fn crossings(&self) -> Vec<(usize, usize)> {
+        let mut strand_of = vec![None; self.rank.len()];
+        for (i, s) in self.strands.iter().enumerate() {
+            if let (Some(from), Some(to)) = (s.from, s.to) {
+                (strand_of[from], strand_of[to]) = (Some(i), Some(i));
+            }
+        }
         let mut found = Vec::new();
         let mut open: Vec<usize> = Vec::new();
-        for strand in self.fan.order.iter().map(|branch| branch / 2) {
+        for strand in self.fan.order.iter().filter_map(|&slot| strand_of[slot]) {
             let Some(at) = open.iter().rposition(|&s| s == strand) else {
                 open.push(strand);
                 continue;
             };
             // Strands opened since and not yet closed have their other ends beyond this one.
-            found.extend(open[at + 1..].iter().map(|&other| {
-                let (a, b) = (self.strands[strand].path, self.strands[other].path);
-                (a.min(b), a.max(b))
-            }));
+            found.extend(open[at + 1..].iter().map(|&other| (strand, other)));
             open.remove(at);
         }
-        found.sort_unstable();
-        found.dedup();
         found
+    }
+
+    /// Whether the slots `a` and `b` alternate with `c` and `d` around the place.
+    fn alternate(&self, [a, b]: [usize; 2], [c, d]: [usize; 2]) -> bool {
+        self.is_before(a, c, b) != self.is_before(a, d, b)
+    }
+
+    /// Whether slot `a` comes before slot `b` counter-clockwise from slot `from`.
+    fn is_before(&self, from: usize, a: usize, b: usize) -> bool {
+        let n = self.rank.len();
+        let turn = |slot: usize| (self.rank[slot] + n - self.rank[from]) % n;
+        turn(a) < turn(b)
     }
 }
 
-/// For each pair of contours with coinciding elements, or contour with two of them, one place.
-fn overlaps(contours: &[Contour], junctions: &[Junction], grain: Grain) -> BTreeMap<(usize, usize), Point> {
-    // Numbers of vertices: that of the junction, or one of their own.
-    let mut own = junctions.len()..;
-    let mut number: Vec<Vec<usize>> =
-        contours.iter().map(|c| own.by_ref().take(c.path.vertices.len()).collect()).collect();
-    for (junction, j) in junctions.iter().enumerate() {
-        j.strands.iter().for_each(|s| number[s.path][s.vertex] = junction);
+/// A path followed from one of its vertices.
+#[derive(Clone, Copy)]
+struct Walk<'a> {
+    path: usize,
+    curve: &'a ArcSpline,
+    vertex: usize,
+    forward: bool,
+}
+
+impl Walk<'_> {
+    /// The element ahead.
+    fn ahead(&self) -> (usize, usize) {
+        let n = self.curve.vertices.len();
+        (self.path, if self.forward { self.vertex } else { (self.vertex + n - 1) % n })
     }
-    let mut between: Vec<(usize, usize, f64, usize, Element)> = Vec::new();
-    for (i, contour) in contours.iter().enumerate() {
-        for (v, e) in contour.path.elements().enumerate() {
-            let (a, b) = (number[i][v], number[i][(v + 1) % contour.path.len()]);
-            between.push(if a <= b { (a, b, e.bulge, i, e) } else { (b, a, -e.bulge, i, e) });
+
+    fn step(&mut self) {
+        let n = self.curve.vertices.len();
+        self.vertex = if self.forward { (self.vertex + 1) % n } else { (self.vertex + n - 1) % n };
+    }
+
+    /// Slots behind and ahead of a strand.
+    fn slots(&self, strand: &Strand) -> (Option<usize>, Option<usize>) {
+        if self.forward { (strand.from, strand.to) } else { (strand.to, strand.from) }
+    }
+}
+
+impl Junctions {
+    /// Pairs of strands that cross at a junction or along what they share from there on.
+    fn crossings_along(&self, junction: &Junction, paths: &[&ArcSpline]) -> Vec<(usize, usize)> {
+        let mut found = Vec::new();
+        for (i, s) in junction.strands.iter().enumerate() {
+            for (j, t) in junction.strands.iter().enumerate().skip(i + 1) {
+                let ((Some(a), Some(b)), (Some(c), Some(d))) = ((s.from, s.to), (t.from, t.to)) else {
+                    continue;
+                };
+                let meet = [a, b].iter().filter(|slot| [c, d].contains(slot)).count();
+                let crosses = match meet {
+                    0 => junction.alternate([a, b], [c, d]),
+                    1 => self.part_across(junction, paths, s, t),
+                    _ => false,
+                };
+                if crosses {
+                    found.push((i, j));
+                }
+            }
         }
+        found
     }
-    between.sort_by(|x, y| (x.0, x.1).cmp(&(y.0, y.1)).then(x.2.total_cmp(&y.2)).then(x.3.cmp(&y.3)));
-    let mut found = BTreeMap::new();
-    for pair in between.windows(2) {
-        let [(a, b, _, i, e), (c, d, _, j, f)] = [pair[0], pair[1]];
-        let middle = e.midpoint();
-        if (a, b) == (c, d) && middle.distance(f.midpoint()) <= 4.0 * grain.same {
-            found.entry((i.min(j), i.max(j))).or_insert(middle);
+
+    /// Whether two strands that share one slot of a junction, by which the first leaves, part on
+    /// other sides of each other than they have met.
+    fn part_across(&self, junction: &Junction, paths: &[&ArcSpline], s: &Strand, t: &Strand) -> bool {
+        if s.from == s.to || t.from == t.to || (s.to != t.to && s.to != t.from) {
+            return false;
         }
+        let mut a = Walk { path: s.path, curve: paths[s.path], vertex: s.vertex, forward: true };
+        let forward = s.to == t.to;
+        let mut b = Walk { path: t.path, curve: paths[t.path], vertex: t.vertex, forward };
+        let ((Some(behind_a), Some(shared)), (Some(behind_b), _)) = (a.slots(s), b.slots(t)) else {
+            return false;
+        };
+        let a_first = junction.is_before(shared, behind_a, behind_b);
+        for _ in 0..a.curve.len() {
+            a.step();
+            b.step();
+            if (a.path, a.vertex) == (b.path, b.vertex) {
+                return false;
+            }
+            let ahead = [a, b].map(|w| self.course.get(&w.ahead()));
+            if ahead[0].is_some() && ahead[0] == ahead[1] {
+                continue;
+            }
+            let (Some(&(end, i)), Some(&(_, j))) =
+                (self.at.get(&(a.path, a.vertex)), self.at.get(&(b.path, b.vertex)))
+            else {
+                return false;
+            };
+            let end = &self.all[end];
+            let ((Some(back), Some(ahead_a)), (_, Some(ahead_b))) =
+                (a.slots(&end.strands[i]), b.slots(&end.strands[j]))
+            else {
+                return false;
+            };
+            return a_first == end.is_before(back, ahead_a, ahead_b);
+        }
+        false
     }
-    found
 }
 
 #[cfg(test)]
@@ -169,8 +244,11 @@ mod tests {
     fn crossings(paths: &[ArcSpline]) -> Crossings {
         let bounds = paths.iter().fold(Bounds::EMPTY, |b, p| b.union(p.bounds()));
         let grain = Grain::of(&bounds);
-        let mut contours: Vec<Contour> =
-            paths.iter().enumerate().map(|(rank, p)| Contour { path: p.clone(), rank }).collect();
+        let mut contours: Vec<Contour> = paths
+            .iter()
+            .enumerate()
+            .map(|(rank, p)| Contour { path: p.clone(), rank, loose: false })
+            .collect();
         arrange(&mut contours, grain).expect("there are few pairs");
         Crossings::of(&contours, grain)
     }
@@ -214,13 +292,31 @@ mod tests {
     }
 
     #[test]
-    fn a_common_side_is_a_crossing_told_once() {
-        let found = crossings(&[square(0.0, 0.0, 2.0), square(2.0, 0.5, 1.0)]);
-        assert_eq!(found.defects, [Defect::Crossing { at: point(2.0, 1.0) }]);
+    fn a_common_side_is_no_crossing() {
+        for other in
+            [square(2.0, 0.5, 1.0), square(0.0, 1.0, 1.0), square(2.0, -1.0, 3.0), square(-1.0, -1.0, 3.0)]
+        {
+            for pair in [[square(0.0, 0.0, 2.0), other.clone()], [other.reversed(), square(0.0, 0.0, 2.0)]] {
+                let found = crossings(&pair);
+                assert!(found.defects.is_empty(), "{:?}", found.defects);
+            }
+        }
     }
 
     #[test]
-    fn a_way_there_and_back_is_a_self_crossing() {
+    fn squares_pushed_over_each_other_along_a_line_cross() {
+        let pushed = square(1.0, 0.0, 2.0);
+        for other in [pushed.clone(), pushed.reversed()] {
+            for pair in [[square(0.0, 0.0, 2.0), other.clone()], [other.clone(), square(0.0, 0.0, 2.0)]] {
+                let found = crossings(&pair);
+                assert_eq!(found.crosses, [true, true]);
+                assert_eq!(found.defects.len(), 2, "{:?}", found.defects);
+            }
+        }
+    }
+
+    #[test]
+    fn a_way_there_and_back_is_no_crossing_and_one_through_is() {
         let spike = [
             (0.0, 0.0, 0.0),
             (2.0, 0.0, 0.0),
@@ -229,7 +325,33 @@ mod tests {
             (2.0, 1.0, 0.0),
             (1.0, 3.0, 0.0),
         ];
-        assert!(crossings(&[ArcSpline::closed(spike)]).crosses[0]);
+        assert!(!crossings(&[ArcSpline::closed(spike)]).crosses[0]);
+        let through = [
+            (0.0, 0.0, 0.0),
+            (2.0, 0.0, 0.0),
+            (2.0, 1.0, 0.0),
+            (4.0, 1.0, 0.0),
+            (4.0, 3.0, 0.0),
+            (6.0, 3.0, 0.0),
+            (6.0, -2.0, 0.0),
+            (3.0, -2.0, 0.0),
+            (3.0, 1.0, 0.0),
+            (2.0, 1.0, 0.0),
+            (0.0, 3.0, 0.0),
+        ];
+        assert!(crossings(&[ArcSpline::closed(through)]).crosses[0]);
+        let mut around = through;
+        around[2..10].reverse();
+        assert!(!crossings(&[ArcSpline::closed(around)]).crosses[0]);
+    }
+
+    #[test]
+    fn an_open_curve_gives_way_to_a_contour_that_it_crosses() {
+        let line = |y: f64| ArcSpline::open([(0.0, y, 0.0), (9.0, y, 0.0)]);
+        let plumb = ArcSpline::open([(4.0, 0.0, 0.0), (4.0, 9.0, 0.0)]);
+        let found = crossings(&[square(0.0, 0.0, 9.0), square(2.0, 2.0, 1.0), line(2.5), line(5.0), plumb]);
+        assert_eq!(found.crosses, [false, false, true, false, false]);
+        assert!(found.defects.is_empty());
     }
 
     #[test]

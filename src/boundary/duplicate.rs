@@ -1,92 +1,112 @@
 //! Curves that are drawn more than once.
 //!
 //! Equal curves have equal boxes, so curves are filed under their rounded boxes and compared only
-//! with those filed under the same. A box near the border of a file is looked up in both.
+//! with those filed under the same. A box near the border of a file is looked up in both. Curves
+//! that are large against the reach of joining are filed a second time, to find near copies.
 
 use super::grain::Grain;
 use crate::error::Defect;
-use crate::geom::{ArcSpline, Vertex};
+use crate::geom::{ArcSpline, Point, Vertex};
 use std::collections::HashMap;
 
 /// Width of a file in round-offs: wide enough that hardly any box is near a border.
 const FILE_WIDTH: f64 = 1024.0;
 
+/// Width of a file for near copies, in reaches: more than a few copies of different curves in one
+/// file would cost more than looking up two.
+const NEAR_WIDTH: f64 = 16.0;
+
+/// Curves smaller than this many reaches are told apart by round-off alone: what is small is not
+/// rough for that.
+const LARGE: f64 = 16.0;
+
 /// Counts the copies of curves that were seen before.
 #[derive(Debug)]
 pub(super) struct Seen {
     grain: Grain,
-    files: HashMap<[i64; 4], Vec<ArcSpline>>,
-    /// Copies so far, with the place of the first, as one defect.
-    pub duplicates: Option<Defect>,
+    reach: f64,
+    curves: Vec<ArcSpline>,
+    files: HashMap<[i64; 4], Vec<u32>>,
+    near_files: HashMap<[i64; 4], Vec<u32>>,
+    /// How many copies there were so far, and the place of the first.
+    pub copies: Option<(usize, Point)>,
 }
 
 impl Seen {
-    /// Nothing seen so far.
-    pub fn new(grain: Grain) -> Seen {
-        Seen { grain, files: HashMap::new(), duplicates: None }
+    /// Nothing seen so far; copies of large curves may be off by `reach`.
+    pub fn new(grain: Grain, reach: f64) -> Seen {
+        let (files, near_files) = (HashMap::new(), HashMap::new());
+        Seen { grain, reach, curves: Vec::new(), files, near_files, copies: None }
     }
 
     /// Whether a clean path is new, and not the copy of an earlier one in either direction or,
     /// closed, from another first vertex.
     pub fn is_new(&mut self, path: &ArcSpline) -> bool {
-        let files = self.files_of(path);
-        let known = |file| self.files.get(file).is_some_and(|l| l.iter().any(|p| self.equal(p, path)));
-        if files.iter().any(known) {
-            self.count(path);
+        let bounds = path.bounds();
+        let sides = [bounds.min.x, bounds.min.y, bounds.max.x, bounds.max.y];
+        let same = self.grain.same;
+        // The box of an arc is as good as its ends, up to the same round-off.
+        let files = files_of(sides, FILE_WIDTH * same, 2.0 * same);
+        let is_large = self.reach > same && bounds.diagonal() > LARGE * self.reach;
+        let near_files = if is_large { files_of(sides, NEAR_WIDTH * self.reach, self.reach) } else { vec![] };
+        let knows = |known: &HashMap<[i64; 4], Vec<u32>>, files: &[[i64; 4]], within: f64| {
+            let candidates = files.iter().filter_map(|f| known.get(f)).flatten();
+            candidates.into_iter().any(|&c| equal(&self.curves[c as usize], path, within))
+        };
+        if knows(&self.files, &files, same) || knows(&self.near_files, &near_files, self.reach) {
+            self.copies.get_or_insert((0, path.vertices[0].point)).0 += 1;
             return false;
         }
-        self.files.entry(files[0]).or_default().push(path.clone());
+        let number = self.curves.len() as u32;
+        self.files.entry(files[0]).or_default().push(number);
+        if let Some(&file) = near_files.first() {
+            self.near_files.entry(file).or_default().push(number);
+        }
+        self.curves.push(path.clone());
         true
     }
 
-    fn count(&mut self, path: &ArcSpline) {
-        let place = path.vertices[0].point;
-        match &mut self.duplicates {
-            Some(Defect::Duplicates { count, .. }) => *count += 1,
-            other => *other = Some(Defect::Duplicates { count: 1, at: place }),
-        }
+    /// All copies so far as one defect.
+    pub fn defect(&self) -> Option<Defect> {
+        self.copies.map(|(count, at)| Defect::Duplicates { count, at })
     }
+}
 
-    /// All files in which an equal path may be; its own one first.
-    fn files_of(&self, path: &ArcSpline) -> Vec<[i64; 4]> {
-        let b = path.bounds();
-        let sides = [b.min.x, b.min.y, b.max.x, b.max.y];
-        // The box of an arc is as good as its ends, up to the same round-off.
-        let (width, margin) = (FILE_WIDTH * self.grain.same, 2.0 * self.grain.same);
-        let number = |c: f64| if width > 0.0 { (c / width).floor() as i64 } else { 0 };
-        let mut files = vec![sides.map(number)];
-        for side in 0..4 {
-            for shifted in [number(sides[side] - margin), number(sides[side] + margin)] {
-                if shifted != files[0][side] {
-                    let copies: Vec<_> = files.iter().map(|f| with(*f, side, shifted)).collect();
-                    files.extend(copies);
-                }
+/// All files in which a curve with an equal box may be; that of the box itself first.
+fn files_of(sides: [f64; 4], width: f64, margin: f64) -> Vec<[i64; 4]> {
+    let number = |c: f64| if width > 0.0 { (c / width).floor() as i64 } else { 0 };
+    let mut files = vec![sides.map(number)];
+    for side in 0..4 {
+        for shifted in [number(sides[side] - margin), number(sides[side] + margin)] {
+            if shifted != files[0][side] {
+                let copies: Vec<_> = files.iter().map(|f| with(*f, side, shifted)).collect();
+                files.extend(copies);
             }
         }
-        files
     }
+    files
+}
 
-    fn equal(&self, a: &ArcSpline, b: &ArcSpline) -> bool {
-        if a.closed != b.closed || a.vertices.len() != b.vertices.len() {
-            return false;
-        }
-        let reversed = b.reversed();
-        [b, &reversed].into_iter().any(|b| {
-            let starts = if b.closed { b.vertices.len() } else { 1 };
-            (0..starts).any(|start| self.equal_from(a, b, start))
+fn equal(a: &ArcSpline, b: &ArcSpline, within: f64) -> bool {
+    if a.closed != b.closed || a.vertices.len() != b.vertices.len() {
+        return false;
+    }
+    let reversed = b.reversed();
+    [b, &reversed].into_iter().any(|b| {
+        let starts = if b.closed { b.vertices.len() } else { 1 };
+        (0..starts).any(|start| equal_from(a, b, start, within))
+    })
+}
+
+fn equal_from(a: &ArcSpline, b: &ArcSpline, start: usize, within: f64) -> bool {
+    let n = b.vertices.len();
+    let same = |a: &Vertex, b: &Vertex| a.point.distance(b.point) <= within;
+    let places = (0..n).all(|i| same(&a.vertices[i], &b.vertices[(start + i) % n]));
+    places
+        && (0..a.len()).all(|i| {
+            let (e, f) = (a.element(i), b.element((start + i) % n));
+            e.midpoint().distance(f.midpoint()) <= 2.0 * within
         })
-    }
-
-    fn equal_from(&self, a: &ArcSpline, b: &ArcSpline, start: usize) -> bool {
-        let n = b.vertices.len();
-        let same = |a: &Vertex, b: &Vertex| a.point.distance(b.point) <= self.grain.same;
-        let places = (0..n).all(|i| same(&a.vertices[i], &b.vertices[(start + i) % n]));
-        places
-            && (0..a.len()).all(|i| {
-                let (e, f) = (a.element(i), b.element((start + i) % n));
-                e.midpoint().distance(f.midpoint()) <= 2.0 * self.grain.same
-            })
-    }
 }
 
 fn with(mut file: [i64; 4], side: usize, number: i64) -> [i64; 4] {
@@ -104,7 +124,7 @@ mod tests {
     }
 
     fn seen() -> Seen {
-        Seen::new(Grain::of(&path(true).bounds()))
+        Seen::new(Grain::of(&path(true).bounds()), 0.0)
     }
 
     #[test]
@@ -115,7 +135,7 @@ mod tests {
         let mut turned = path(true);
         turned.vertices.rotate_left(3);
         assert!(!seen.is_new(&turned) && !seen.is_new(&turned.reversed()));
-        assert!(matches!(seen.duplicates, Some(Defect::Duplicates { count: 4, .. })));
+        assert!(matches!(seen.defect(), Some(Defect::Duplicates { count: 4, .. })));
     }
 
     #[test]
@@ -135,5 +155,15 @@ mod tests {
         assert!(seen.is_new(&path(true)) && seen.is_new(&other));
         other.vertices[1].bulge = -0.4;
         assert!(seen.is_new(&other));
+    }
+
+    #[test]
+    fn a_copy_within_reach_is_a_copy_unless_the_curve_is_as_small() {
+        let scaled =
+            |by: f64, off: f64| path(true).mapped(false, |p| crate::geom::point(by * p.x + off, by * p.y));
+        let mut seen = Seen::new(Grain::of(&path(true).bounds()), 0.01);
+        assert!(seen.is_new(&scaled(1.0, 0.0)) && !seen.is_new(&scaled(1.0, 0.006).reversed()));
+        assert!(seen.is_new(&scaled(1.0, 0.02)));
+        assert!(seen.is_new(&scaled(0.01, 0.0)) && seen.is_new(&scaled(0.01, 0.006)));
     }
 }

@@ -69,6 +69,11 @@ impl Pockets {
     }
 }
 
+/// Whether a defect leaves the loops what they were drawn for.
+fn is_harmless(defect: &Defect) -> bool {
+    matches!(defect, Defect::Duplicates { .. } | Defect::Overlaps { .. } | Defect::Healed { .. })
+}
+
 impl Pocket {
     /// The pocket that closed loops in any order and orientation bound. Equal loops count once.
     ///
@@ -83,7 +88,7 @@ impl Pocket {
         let mut defects: Vec<Defect> = open.collect();
         let closed = loops.iter().filter(|l| l.closed);
         let found = assemble(closed, tolerance.join, 0)?;
-        defects.extend(found.defects.into_iter().filter(|d| !matches!(d, Defect::Duplicates { .. })));
+        defects.extend(found.defects.into_iter().filter(|d| !is_harmless(d)));
         let count = found.pockets.len();
         let last = found.pockets.into_iter().next_back();
         match last {

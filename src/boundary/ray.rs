@@ -47,7 +47,7 @@ pub(crate) struct Rays {
 }
 
 impl Rays {
-    /// Prepares loops; they are numbered by their `owner`.
+    /// Prepares loops; they are numbered by their `owner`, in ascending order.
     pub fn new<'a>(loops: impl Iterator<Item = (usize, &'a ArcSpline)>) -> Rays {
         let mut pieces = Vec::new();
         for (owner, path) in loops {
@@ -110,6 +110,24 @@ impl Rays {
             }
         }
         places
+    }
+
+    /// Whether the outside of a set of pieces is on the left of that one, not closed, which reaches
+    /// the leftmost turned place of the set, and there alone.
+    pub fn is_left_of(&self, owner: usize, place: Point) -> bool {
+        // Of the branches there the lowest has the outside on its right, seen from the place.
+        let mut lowest: Option<(f64, bool)> = None;
+        let from = self.pieces.partition_point(|p| (p.owner as usize) < owner);
+        for piece in self.pieces[from..].iter().take_while(|p| p.owner as usize == owner) {
+            let e = &piece.element;
+            for (end, away, forward) in [(e.start, *e, true), (e.end, e.reversed(), false)] {
+                let angle = away.tangents().0.angle();
+                if end == place && lowest.is_none_or(|(least, _)| angle < least) {
+                    lowest = Some((angle, forward));
+                }
+            }
+        }
+        lowest.is_some_and(|(_, forward)| !forward)
     }
 }
 

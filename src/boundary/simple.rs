@@ -2,7 +2,7 @@
 
 use super::grain::Grain;
 use crate::geom::{ArcSpline, Element, Point, Vertex};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// Cuts a closed path in which strands touch but do not cross wherever it comes back to a vertex.
 /// The loops bound the same region by the even-odd rule.
@@ -25,6 +25,42 @@ pub(super) fn simple_loops(path: &ArcSpline) -> Vec<ArcSpline> {
     loops.push(ArcSpline { vertices: open, closed: true });
     loops.reverse();
     loops
+}
+
+/// Cuts small loops off a closed path at vertices that it passes again: loops that reach no farther
+/// than `reach` from there, while the rest does. Answers where.
+pub(super) fn cut_small_loops(path: &mut ArcSpline, crossed: &[usize], reach: f64) -> Vec<Point> {
+    let is_small = |vertices: &[Vertex], at: Point| {
+        let open = ArcSpline { vertices: vertices.to_vec(), closed: false };
+        let far = |p: Point| p.distance(at) > reach;
+        !open.elements().any(|e| far(e.midpoint()) || far(e.end)) && !vertices.iter().any(|v| far(v.point))
+    };
+    let at_crossing: HashSet<(u64, u64)> = crossed.iter().map(|&v| bits_of(&path.vertices[v])).collect();
+    let start = (0..path.vertices.len()).max_by(|&i, &j| {
+        let from = path.vertices[crossed[0]].point;
+        let distance = |k: usize| path.vertices[k].point.distance(from);
+        distance(i).total_cmp(&distance(j))
+    });
+    // From the vertex farthest away, small loops do not run over the start.
+    path.vertices.rotate_left(start.unwrap_or(0));
+    let mut kept: Vec<Vertex> = Vec::new();
+    let mut passed: HashMap<(u64, u64), usize> = HashMap::new();
+    let mut places = Vec::new();
+    for &vertex in &path.vertices {
+        let bits = bits_of(&vertex);
+        let since = passed.get(&bits).copied().filter(|&i| kept.get(i).is_some_and(|v| bits_of(v) == bits));
+        if let Some(since) = since
+            && at_crossing.contains(&bits)
+            && is_small(&kept[since..], vertex.point)
+        {
+            kept.truncate(since);
+            places.push(vertex.point);
+        }
+        passed.insert(bits, kept.len());
+        kept.push(vertex);
+    }
+    path.vertices = kept;
+    places
 }
 
 fn bits_of(v: &Vertex) -> (u64, u64) {
@@ -96,5 +132,25 @@ mod tests {
         assert!(is_flat(&ArcSpline::closed([(0.0, 0.0, 0.0), (3.0, 3.0, 0.0), (1.0, 1.0, 0.0)]), GRAIN));
         assert!(!is_flat(&ArcSpline::closed([(0.0, 0.0, 0.4), (1.0, 1.0, 0.0)]), GRAIN));
         assert!(!is_flat(&ArcSpline::circle(Point::default(), 1.0), GRAIN));
+    }
+
+    #[test]
+    fn only_small_loops_are_cut_off() {
+        let path = |size: f64| {
+            ArcSpline::closed([
+                (9.0, 0.0, 0.0),
+                (9.0 + size, 0.0, 0.0),
+                (9.0, -size, 0.0),
+                (9.0, 0.0, 0.0),
+                (9.0, 3.0, 0.0),
+                (0.0, 3.0, 0.0),
+                (0.0, 0.0, 0.0),
+            ])
+        };
+        let (mut small, mut large) = (path(0.005), path(0.02));
+        assert_eq!(cut_small_loops(&mut small, &[0, 3], 0.01).len(), 1);
+        assert_eq!((small.len(), small.area()), (4, 27.0));
+        assert!(cut_small_loops(&mut large, &[0, 3], 0.01).is_empty());
+        assert_eq!(large.len(), 7);
     }
 }

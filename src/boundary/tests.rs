@@ -180,7 +180,7 @@ fn a_line_along_an_edge_of_a_contour_does_no_harm() {
     let line = ArcSpline::open([(0.0, 0.0, 0.0), (10.0, 0.0, 0.0)]);
     let found = drawn(&[square(0.0, 0.0, 10.0), line]);
     assert_eq!(islands(&found), [0]);
-    assert!(matches!(found.defects[..], [Defect::OpenContour { .. }]));
+    assert!(matches!(found.defects[..], [Defect::Overlaps { count: 1, .. }]), "{:?}", found.defects);
 }
 
 #[test]

@@ -332,6 +332,9 @@ fn defect_kind(defect: &Defect) -> &'static str {
     match defect {
         Defect::OpenContour { .. } => "open-contour",
         Defect::Duplicates { .. } => "duplicates",
+        Defect::Overlaps { .. } => "overlaps",
+        Defect::Divided { .. } => "divided",
+        Defect::Healed { .. } => "healed",
         Defect::Crossing { .. } => "crossing",
         Defect::SelfCrossing { .. } => "self-crossing",
         Defect::MoreCrossings { .. } => "more-crossings",
