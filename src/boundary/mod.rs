@@ -14,6 +14,7 @@ mod curve;
 mod duplicate;
 mod ends;
 mod fan;
+pub mod freeform;
 mod grain;
 mod index;
 mod intersect;
