@@ -133,6 +133,13 @@ impl Piece {
         self
     }
 
+    /// Moves every control point by an affine map, which maps the curve.
+    pub fn map(&mut self, map: impl Fn(Vector) -> Vector) {
+        for p in &mut self.points[..=self.degree] {
+            *p = map(*p);
+        }
+    }
+
     /// Place at `t`.
     pub fn at(&self, t: f64) -> Vector {
         if self.rational {
@@ -145,6 +152,21 @@ impl Piece {
             }
         }
         p[0]
+    }
+
+    /// Place and first derivative at `t`.
+    pub fn motion(&self, t: f64) -> (Vector, Vector) {
+        if self.rational {
+            let jet = self.jet(t);
+            return (jet.q, jet.d1);
+        }
+        let (mut p, n) = (self.points, self.degree);
+        for level in (1..n).rev() {
+            for i in 0..=level {
+                p[i] = p[i] * (1.0 - t) + p[i + 1] * t;
+            }
+        }
+        (p[0] * (1.0 - t) + p[1] * t, (p[1] - p[0]) * n as f64)
     }
 
     /// Place and derivatives at `t`.

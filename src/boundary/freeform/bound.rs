@@ -1,0 +1,291 @@
+//! A proven bound on the distance between an arc and the part of the curve it stands for.
+//!
+//! **Needs** a part of the curve whose ends lie on the normals of the arc at its ends. **Guarantees**
+//! that no place of either is farther from the other than the bound, but for round-off in proportion
+//! to the coordinates; the bound is at most [`TIGHT`] times the largest distance.
+//!
+//! **Method.** In the frame of the chord (length `c`, middle at zero, left normal `n`) a place `w`
+//! has the power `e = cos(theta) w.n - k/2 (|w|^2 - c^2/4)` with respect to the circle of curvature
+//! `k` and half sweep `theta`: no center, so it holds for straight arcs too. `e = d - k d^2 / 2` for
+//! the signed distance `d` to the circle, thus `|d| <= 2|e| / (1 + sqrt(1 - 2|k e|))`. Along a
+//! rational piece `e` is a ratio of Bernstein forms of twice its degree, bounded by the ratios of
+//! their coefficients and halved until the bound is tight. The angle seen from the center is
+//! monotone, shown by the control polygon, so every normal of the arc meets the part once and the
+//! bound holds in both directions (S0, section 2.3, footnote 2, in curvature form).
+
+use super::bernstein::BINOMIAL;
+use super::biarc::Arc;
+use super::piece::{MAX_CURVE_DEGREE, Piece};
+use crate::geom::Vector;
+
+/// The bound is at most this many times the largest distance, unless halving is given up.
+pub(super) const TIGHT: f64 = 1.06;
+
+/// Halvings before a bound that is not tight is taken as it is, and a turn that is not shown to be
+/// monotone counts as none.
+const MAX_HALVINGS: u32 = 10;
+
+const LEN: usize = 2 * MAX_CURVE_DEGREE + 1;
+
+/// Bound and largest distance found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Distance {
+    /// No distance is larger.
+    pub bound: f64,
+    /// Some distance is at least this.
+    pub found: f64,
+}
+
+impl Distance {
+    /// Nothing measured yet.
+    pub const ZERO: Distance = Distance { bound: 0.0, found: 0.0 };
+    /// What is known of parts that could not be matched: nothing.
+    pub const UNKNOWN: Distance = Distance { bound: f64::INFINITY, found: f64::INFINITY };
+
+    /// Of both together.
+    pub fn max(self, other: Distance) -> Distance {
+        Distance { bound: self.bound.max(other.bound), found: self.found.max(other.found) }
+    }
+}
+
+/// An arc in the frame of its chord.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Frame {
+    middle: Vector,
+    along: Vector,
+    half: f64,
+    cos: f64,
+    half_curvature: f64,
+}
+
+impl Frame {
+    /// The frame of an arc with two different ends.
+    pub fn of(arc: &Arc) -> Frame {
+        let chord = arc.end - arc.start;
+        let length = chord.length();
+        let b2 = arc.bulge * arc.bulge;
+        Frame {
+            middle: (arc.start + arc.end) * 0.5,
+            along: chord / length,
+            half: 0.5 * length,
+            cos: (1.0 - b2) / (1.0 + b2),
+            half_curvature: 2.0 * arc.bulge / ((1.0 + b2) * length),
+        }
+    }
+
+    fn enter(&self, p: Vector) -> Vector {
+        let w = p - self.middle;
+        Vector { x: w.dot(self.along), y: self.along.cross(w) }
+    }
+
+    /// Distance to the circle for the absolute power.
+    fn distance(&self, power: f64) -> f64 {
+        let root = 1.0 - 4.0 * self.half_curvature.abs() * power;
+        if root >= 0.0 { 2.0 * power / (1.0 + root.sqrt()) } else { f64::INFINITY }
+    }
+
+    /// Distance between the arc and a part of a piece, whose ends are on its normals or inside.
+    pub fn measure(&self, part: &Piece) -> Distance {
+        let mut local = *part;
+        local.map(|p| self.enter(p));
+        if !self.is_monotone(&local, MAX_HALVINGS) {
+            return Distance::UNKNOWN;
+        }
+        let power = Power::along(&local, self);
+        let mut range = Distance { bound: 0.0, found: power.ends() };
+        power.bound(MAX_HALVINGS, &mut range);
+        Distance { bound: self.distance(range.bound), found: self.distance(range.found.min(range.bound)) }
+    }
+
+    /// Whether the angle of the part seen from the center runs in one direction. With derivative
+    /// `q'` that is `(cos(theta) - k q.y) q'.x + k q.x q'.y > 0`; `q` lies in the box of the control
+    /// points, and `q'` is a positive sum of the steps between them.
+    fn is_monotone(&self, part: &Piece, halvings: u32) -> bool {
+        let k = 2.0 * self.half_curvature;
+        let points = part.points();
+        let (mut low, mut high) = (points[0], points[0]);
+        for p in &points[1..] {
+            low = Vector { x: low.x.min(p.x), y: low.y.min(p.y) };
+            high = Vector { x: high.x.max(p.x), y: high.y.max(p.y) };
+        }
+        let (a, b) = ([self.cos - k * low.y, self.cos - k * high.y], [k * low.x, k * high.x]);
+        let least = |[a, b]: [f64; 2], s: f64| (a * s).min(b * s);
+        if points.windows(2).all(|w| least(a, w[1].x - w[0].x) + least(b, w[1].y - w[0].y) >= 0.0) {
+            return true;
+        }
+        if halvings == 0 || self.goes_back(part) {
+            return false;
+        }
+        self.is_monotone(&part.part(0.0, 0.5), halvings - 1)
+            && self.is_monotone(&part.part(0.5, 1.0), halvings - 1)
+    }
+
+    /// Whether the angle seen from the center is no larger at the end of a part than at its start.
+    fn goes_back(&self, part: &Piece) -> bool {
+        let k = 2.0 * self.half_curvature;
+        let arm = |p: Vector| Vector { x: self.cos - k * p.y, y: k * p.x };
+        let (from, to) = (part.start(), part.end());
+        let middle = (from + to) * 0.5;
+        arm(middle).x * (to.x - from.x) + arm(middle).y * (to.y - from.y) <= 0.0
+    }
+}
+
+/// The power along a piece as numerator and denominator in Bernstein form.
+#[derive(Clone, Copy)]
+struct Power {
+    degree: usize,
+    rational: bool,
+    numerator: [f64; LEN],
+    denominator: [f64; LEN],
+}
+
+impl Power {
+    fn along(local: &Piece, frame: &Frame) -> Power {
+        let d = local.degree();
+        let (points, weights) = (local.points(), local.weights());
+        let mut power =
+            Power { degree: 2 * d, rational: local.is_rational(), numerator: [0.0; LEN], denominator: [0.0; LEN] };
+        let (quarter, half_cos) = (frame.half * frame.half, 0.5 * frame.cos);
+        for i in 0..=d {
+            for j in i..=d {
+                let twice = if i == j { 1.0 } else { 2.0 };
+                let share = twice * SHARES[d][i][j] * weights[i] * weights[j];
+                let (p, q) = (points[i], points[j]);
+                let e = half_cos * (p.y + q.y) - frame.half_curvature * (p.dot(q) - quarter);
+                power.numerator[i + j] += share * e;
+                power.denominator[i + j] += share;
+            }
+        }
+        power
+    }
+
+    /// Largest absolute value at the ends.
+    fn ends(&self) -> f64 {
+        let n = self.degree;
+        (self.numerator[0] / self.denominator[0]).abs().max((self.numerator[n] / self.denominator[n]).abs())
+    }
+
+    /// Largest absolute ratio of coefficients.
+    fn largest(&self) -> f64 {
+        let pairs = self.numerator[..=self.degree].iter().zip(&self.denominator[..=self.degree]);
+        if self.rational {
+            pairs.fold(0.0, |m: f64, (a, b)| m.max(a.abs() / b))
+        } else {
+            pairs.fold(0.0, |m: f64, (a, _)| m.max(a.abs()))
+        }
+    }
+
+    /// Widens a range by bound and found values of this part.
+    fn bound(mut self, halvings: u32, range: &mut Distance) {
+        let largest = self.largest();
+        if largest <= range.bound {
+            return;
+        }
+        if largest <= TIGHT * range.found || halvings == 0 {
+            range.bound = largest;
+            return;
+        }
+        let before = self.halve();
+        range.found = range.found.max(before.end());
+        before.bound(halvings - 1, range);
+        self.bound(halvings - 1, range);
+    }
+
+    fn end(&self) -> f64 {
+        (self.numerator[self.degree] / self.denominator[self.degree]).abs()
+    }
+
+    /// Keeps the second half and answers the first.
+    fn halve(&mut self) -> Power {
+        let mut before = *self;
+        halve(&mut self.numerator, &mut before.numerator, self.degree);
+        if self.rational {
+            halve(&mut self.denominator, &mut before.denominator, self.degree);
+        }
+        before
+    }
+}
+
+fn halve(c: &mut [f64; LEN], before: &mut [f64; LEN], n: usize) {
+    for k in 0..n {
+        before[k] = c[0];
+        for i in 0..n - k {
+            c[i] = 0.5 * (c[i] + c[i + 1]);
+        }
+    }
+    before[n] = c[0];
+}
+
+/// `SHARES[d][i][j]`: share of the product of coefficients `i` and `j` of two forms of degree `d` in
+/// coefficient `i + j` of their product.
+static SHARES: [[[f64; MAX_CURVE_DEGREE + 1]; MAX_CURVE_DEGREE + 1]; MAX_CURVE_DEGREE + 1] = shares();
+
+const fn shares() -> [[[f64; MAX_CURVE_DEGREE + 1]; MAX_CURVE_DEGREE + 1]; MAX_CURVE_DEGREE + 1] {
+    let mut table = [[[0.0; MAX_CURVE_DEGREE + 1]; MAX_CURVE_DEGREE + 1]; MAX_CURVE_DEGREE + 1];
+    let mut d = 0;
+    while d <= MAX_CURVE_DEGREE {
+        let mut i = 0;
+        while i <= d {
+            let mut j = 0;
+            while j <= d {
+                table[d][i][j] = BINOMIAL[d][i] * BINOMIAL[d][j] / BINOMIAL[2 * d][i + j];
+                j += 1;
+            }
+            i += 1;
+        }
+        d += 1;
+    }
+    table
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::vector;
+
+    /// Largest distance of samples to the circle of the arc from (0, 0) to (1, 0).
+    fn sampled(part: &Piece, arc: &Arc) -> f64 {
+        let b = arc.bulge;
+        let radius = (1.0 + b * b) / (4.0 * b).abs();
+        let center = vector(0.5, (1.0 - b * b) / (4.0 * b));
+        let off = |i: i32| {
+            let p = part.at(f64::from(i) / 1000.0);
+            if b == 0.0 { p.y.abs() } else { ((p - center).length() - radius).abs() }
+        };
+        (0..=1000).map(off).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn the_bound_is_above_all_samples_and_near_them() {
+        let points = [vector(0.0, 0.0), vector(0.3, -0.2), vector(0.7, -0.1), vector(1.0, 0.0)];
+        for weights in [[1.0; 4], [1.0, 2.0, 0.7, 1.0]] {
+            let part = Piece::new(&points, &weights);
+            for bulge in [0.0, 0.1, 0.3, -0.1, 1e-9] {
+                let arc = Arc { start: vector(0.0, 0.0), end: vector(1.0, 0.0), bulge };
+                let distance = Frame::of(&arc).measure(&part);
+                let sampled = sampled(&part, &arc);
+                assert!(distance.bound >= sampled - 1e-9, "{bulge}: {distance:?}, sampled {sampled}");
+                assert!(distance.bound <= 1.1 * sampled, "{bulge}: {distance:?}, sampled {sampled}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_part_that_turns_back_has_no_bound() {
+        let points = [vector(0.0, 0.0), vector(1.2, 0.1), vector(-0.2, 0.1), vector(1.0, 0.0)];
+        let arc = Arc { start: vector(0.0, 0.0), end: vector(1.0, 0.0), bulge: -0.05 };
+        assert_eq!(Frame::of(&arc).measure(&Piece::new(&points, &[1.0; 4])), Distance::UNKNOWN);
+    }
+
+    #[test]
+    fn a_circle_has_no_distance_from_itself() {
+        let half = std::f64::consts::FRAC_1_SQRT_2;
+        let quarter = Piece::new(&[vector(1.0, 0.0), vector(1.0, 1.0), vector(0.0, 1.0)], &[1.0, half, 1.0]);
+        let arc = Arc {
+            start: vector(1.0, 0.0),
+            end: vector(0.0, 1.0),
+            bulge: (std::f64::consts::PI / 8.0).tan(),
+        };
+        assert!(Frame::of(&arc).measure(&quarter).bound < 1e-15);
+    }
+}
