@@ -19,7 +19,7 @@ use super::piece::{MAX_CURVE_DEGREE, Piece};
 use crate::geom::Vector;
 
 /// The bound is at most this many times the largest distance, unless halving is given up.
-pub(super) const TIGHT: f64 = 1.06;
+pub(super) const TIGHT: f64 = 1.02;
 
 /// Halvings before a bound that is not tight is taken as it is, and a turn that is not shown to be
 /// monotone counts as none.
@@ -143,8 +143,12 @@ impl Power {
     fn along(local: &Piece, frame: &Frame) -> Power {
         let d = local.degree();
         let (points, weights) = (local.points(), local.weights());
-        let mut power =
-            Power { degree: 2 * d, rational: local.is_rational(), numerator: [0.0; LEN], denominator: [0.0; LEN] };
+        let mut power = Power {
+            degree: 2 * d,
+            rational: local.is_rational(),
+            numerator: [0.0; LEN],
+            denominator: [0.0; LEN],
+        };
         let (quarter, half_cos) = (frame.half * frame.half, 0.5 * frame.cos);
         for i in 0..=d {
             for j in i..=d {
@@ -281,11 +285,8 @@ mod tests {
     fn a_circle_has_no_distance_from_itself() {
         let half = std::f64::consts::FRAC_1_SQRT_2;
         let quarter = Piece::new(&[vector(1.0, 0.0), vector(1.0, 1.0), vector(0.0, 1.0)], &[1.0, half, 1.0]);
-        let arc = Arc {
-            start: vector(1.0, 0.0),
-            end: vector(0.0, 1.0),
-            bulge: (std::f64::consts::PI / 8.0).tan(),
-        };
+        let arc =
+            Arc { start: vector(1.0, 0.0), end: vector(0.0, 1.0), bulge: (std::f64::consts::PI / 8.0).tan() };
         assert!(Frame::of(&arc).measure(&quarter).bound < 1e-15);
     }
 }

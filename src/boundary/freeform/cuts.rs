@@ -61,6 +61,8 @@ pub(super) struct Stretch {
     pub to: Cut,
     /// What it is.
     pub kind: StretchKind,
+    /// Whether the curvature of a spiral rises along it.
+    pub rises: bool,
 }
 
 /// A jump of the curvature counts when it moves the curve, over the longer of both pieces, by more
@@ -99,12 +101,17 @@ pub(super) fn stretches(curve: &Pieces, tolerance: f64) -> Vec<Stretch> {
     } else {
         cuts.push(Cut { u: count as f64, kind: CutKind::End });
     }
-    let kind = |u: f64| match &shapes[u as usize % count] {
-        Shape::Straight { .. } => StretchKind::Straight,
-        Shape::Round => StretchKind::Round,
-        Shape::Curved(_) => StretchKind::Spiral,
+    let stretch = |w: &[Cut]| {
+        let middle = 0.5 * (w[0].u + w[1].u);
+        let kind = match &shapes[middle as usize % count] {
+            Shape::Straight { .. } => StretchKind::Straight,
+            Shape::Round => StretchKind::Round,
+            Shape::Curved(_) => StretchKind::Spiral,
+        };
+        let slope = curve.pieces[middle as usize % count].jet(middle.fract()).curvature_slope();
+        Stretch { from: w[0], to: w[1], kind, rises: slope > 0.0 }
     };
-    cuts.windows(2).map(|w| Stretch { from: w[0], to: w[1], kind: kind(0.5 * (w[0].u + w[1].u)) }).collect()
+    cuts.windows(2).map(stretch).collect()
 }
 
 /// Cuts inside piece `first`.

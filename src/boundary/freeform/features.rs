@@ -234,7 +234,10 @@ mod tests {
             // Sampling finds no more, and what it misses are pairs.
             assert!(signs.len() <= f.apices.len() + 1, "{weights:?} {f:?}");
             if weights[0] > 0.1 {
-                assert_eq!((signs[0], signs[signs.len() - 1]), (f64::from(f.slopes[0]), f64::from(f.slopes[1])));
+                assert_eq!(
+                    (signs[0], signs[signs.len() - 1]),
+                    (f64::from(f.slopes[0]), f64::from(f.slopes[1]))
+                );
                 assert_eq!(signs.len(), f.apices.len() + 1, "{weights:?} {f:?}");
             }
         }

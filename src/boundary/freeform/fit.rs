@@ -5,7 +5,8 @@ use super::bound::Distance;
 use super::cuts::{CutKind, Stretch, StretchKind, stretches};
 use super::error::CurveError;
 use super::pieces::Pieces;
-use super::spiral::{Fitter, MAX_BIARCS, Scheme};
+use super::run::fit_run;
+use super::spiral::{Cell, Fitter, MAX_BIARCS, Scheme};
 use super::track::{Side, Track};
 use super::{EllipseArc, Nurbs};
 use crate::geom::{ArcSpline, Vector, Vertex};
@@ -106,21 +107,24 @@ fn fit(curve: &Pieces, tolerance: f64, scheme: Scheme) -> Result<Fit, CurveError
     let track = Track::new(curve);
     let mut fitter = Fitter::default();
     let goal = tolerance - FIT_ROUNDINGS * curve.noise;
-    for stretch in stretches(curve, tolerance) {
-        cuts.count(stretch.from.kind);
-        let ends = [track.cut_node(stretch.from.u, Side::After), track.cut_node(stretch.to.u, Side::Before)];
-        if path.push_exact(&track, &stretch, ends) {
+    let stretches = stretches(curve, tolerance);
+    stretches.iter().for_each(|s| cuts.count(s.from.kind));
+    let goes_on = |a: &Stretch, b: &Stretch| {
+        let soft = matches!(b.from.kind, CutKind::Apex | CutKind::Inflection);
+        soft && a.kind == StretchKind::Spiral && b.kind == StretchKind::Spiral
+    };
+    let mut cells = Vec::new();
+    for run in stretches.chunk_by(goes_on) {
+        let (from, to) = (run[0].from.u, run[run.len() - 1].to.u);
+        let ends = [track.cut_node(from, Side::After), track.cut_node(to, Side::Before)];
+        if path.push_exact(&track, &run[0], ends) {
             continue;
         }
-        let Some(cells) = fitter.fit(&track, ends, goal, scheme) else {
+        cells.clear();
+        if fit_run(&mut fitter, &track, (goal, scheme), run, &mut cells).is_none() {
             return Err(CurveError::Effort { at: curve.origin + ends[0].place, limit: MAX_BIARCS });
-        };
-        for (i, cell) in cells.iter().enumerate() {
-            path.distance = path.distance.max(cell.distance);
-            let smooth = i > 0 || stretch.from.kind.is_smooth();
-            path.elements.push(Piecewise { arc: cell.arcs[0], smooth, exact: false });
-            path.elements.push(Piecewise { arc: cell.arcs[1], smooth: true, exact: false });
         }
+        path.push_cells(&cells, run[0].from.kind);
     }
     Ok(path.finished(cuts))
 }
@@ -180,6 +184,15 @@ impl Path<'_> {
             self.elements.push(next);
         }
         true
+    }
+
+    fn push_cells(&mut self, cells: &[Cell], begin: CutKind) {
+        for (i, cell) in cells.iter().enumerate() {
+            self.distance = self.distance.max(cell.distance);
+            let smooth = i > 0 || begin.is_smooth();
+            self.elements.push(Piecewise { arc: cell.arcs[0], smooth, exact: false });
+            self.elements.push(Piecewise { arc: cell.arcs[1], smooth: true, exact: false });
+        }
     }
 
     fn finished(self, cuts: Cuts) -> Fit {

@@ -13,11 +13,12 @@ mod nurbs;
 mod piece;
 mod pieces;
 mod roots;
+mod run;
 mod spiral;
 mod track;
 
 pub use ellipse::EllipseArc;
 pub use error::CurveError;
-pub use nurbs::Nurbs;
 pub use fit::{Cuts, Fit};
+pub use nurbs::Nurbs;
 pub use spiral::Scheme;

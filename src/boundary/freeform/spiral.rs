@@ -37,6 +37,12 @@ pub(super) const MAX_BIARCS: usize = 1 << 20;
 /// Divisions of a stretch by equal error that are tried before halving takes over.
 const MAX_SWEEPS: usize = 12;
 
+/// Divisions by measured errors that are tried with one number of biarcs.
+const MAX_TRIES: usize = 2;
+
+/// One biarc in so many is given away when errors do not become equal any further.
+const SLACK: usize = 64;
+
 /// Samples of the density of arcs in one piece.
 const SAMPLES: usize = 8;
 
@@ -59,6 +65,12 @@ pub(super) struct Fitter {
 pub(super) struct Cell {
     /// Its arcs.
     pub arcs: [Arc; 2],
+    /// Parameter of the curve at its start.
+    pub from: f64,
+    /// Parameter beyond its joint.
+    pub joint: f64,
+    /// Parameter at its end.
+    pub to: f64,
     /// How far they are from the curve.
     pub distance: Distance,
 }
@@ -69,11 +81,8 @@ impl Fitter {
         self.best.clear();
         match scheme {
             Scheme::Bisection => {}
-            Scheme::Tilted => self.equal_errors(track, ends, tolerance, Joint::Middle),
             Scheme::Osculating => self.equal_errors(track, ends, tolerance, Joint::Osculating),
-            Scheme::Fewest => {
-                self.equal_errors(track, ends, tolerance, Joint::Middle);
-            }
+            Scheme::Tilted | Scheme::Fewest => self.equal_errors(track, ends, tolerance, Joint::Middle),
         }
         if self.best.is_empty() {
             let joint = if scheme == Scheme::Tilted { Joint::Middle } else { Joint::Osculating };
@@ -88,43 +97,32 @@ impl Fitter {
         let constant = if joint == Joint::Middle { 3f64.sqrt() / 216.0 } else { 1.0 / 12.0 };
         let wanted = (0.5 * total * (constant / tolerance).cbrt()).ceil();
         let mut count = if wanted < MAX_BIARCS as f64 { (wanted as usize).max(1) } else { return };
-        let mut least = 1;
+        let mut tries = 0;
         for _ in 0..MAX_SWEEPS {
             self.divide(track, ends, count, joint == Joint::Middle);
             self.build(track, joint);
             let worst = self.cells.iter().fold(0.0, |m: f64, c| m.max(c.distance.bound));
+            let needed = if worst.is_finite() { self.measure_errors(worst, tolerance) } else { 2 * count };
             let fits = worst <= tolerance;
             if fits {
                 std::mem::swap(&mut self.cells, &mut self.best);
-                if count <= least {
-                    return;
-                }
             }
-            let needed = if worst.is_finite() {
-                let cells = if fits { &self.best } else { &self.cells };
-                let roots = |e: f64| (e.max(LEAST_ERROR * worst) / tolerance).cbrt();
-                let sum: f64 = cells.iter().map(|c| roots(c.distance.bound)).sum();
-                (sum.ceil() as usize).max(least)
-            } else {
-                2 * count
-            };
-            if fits && needed >= count || needed > MAX_BIARCS {
+            let enough = !self.best.is_empty();
+            if fits && needed >= count || enough && (needed >= self.best.len() || tries == MAX_TRIES) {
                 return;
             }
-            if !fits && needed <= count && self.best.is_empty() && count >= self.cells.len() {
-                least = least.max(needed);
-            }
-            if !self.best.is_empty() && !fits {
-                // One less did not do, even after the errors were made equal once.
-                if needed >= self.best.len() {
-                    return;
+            if needed == count || !fits && needed < count {
+                // Errors are not equal yet: once more with the same number, then with some more.
+                tries += 1;
+                if tries > MAX_TRIES {
+                    (count, tries) = (count + 1 + count / SLACK, 0);
                 }
-                least = needed;
+            } else {
+                (count, tries) = (needed, 0);
             }
-            if worst.is_finite() {
-                self.measure_errors(ends, worst, fits);
+            if count > MAX_BIARCS {
+                return;
             }
-            count = needed;
         }
     }
 
@@ -153,19 +151,16 @@ impl Fitter {
         sum
     }
 
-    /// The measure that makes measured errors equal.
-    fn measure_errors(&mut self, [from, to]: [Node; 2], worst: f64, fits: bool) {
-        let cells = if fits { &self.best } else { &self.cells };
+    /// The measure that makes measured errors equal; answers how many cells it should take then.
+    fn measure_errors(&mut self, worst: f64, tolerance: f64) -> usize {
         self.measure.clear();
-        self.measure.push((from.u, 0.0));
+        self.measure.push((self.nodes[0].u, 0.0));
         let mut sum = 0.0;
-        for (cell, node) in cells.iter().zip(&self.nodes[1..]) {
-            sum += cell.distance.bound.max(LEAST_ERROR * worst).cbrt();
+        for (cell, node) in self.cells.iter().zip(&self.nodes[1..]) {
+            sum += (cell.distance.bound.max(LEAST_ERROR * worst) / tolerance).cbrt();
             self.measure.push((node.u, sum));
         }
-        if let Some(last) = self.measure.last_mut() {
-            last.0 = to.u;
-        }
+        (sum.ceil() as usize).max(1)
     }
 
     /// Nodes that divide the measure in `count` equal parts.
@@ -255,8 +250,12 @@ fn node(track: &Track, u: f64) -> Node {
 /// The biarc between two nodes with its distance from the curve.
 fn cell(track: &Track, a: &Node, b: &Node, joint: Joint) -> Cell {
     let none = Arc { start: a.place, end: b.place, bulge: 0.0 };
+    let (from, to) = (a.u, b.u);
     match biarc(a, b, joint, track.grid) {
-        Some(arcs) => Cell { arcs, distance: track.measure(&arcs, a.u, b.u) },
-        None => Cell { arcs: [none; 2], distance: Distance::UNKNOWN },
+        Some(arcs) => {
+            let (distance, joint) = track.measure(&arcs, from, to);
+            Cell { arcs, from, joint, to, distance }
+        }
+        None => Cell { arcs: [none; 2], from, joint: to, to, distance: Distance::UNKNOWN },
     }
 }

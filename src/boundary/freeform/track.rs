@@ -35,9 +35,9 @@ impl<'a> Track<'a> {
         Track { pieces: &curve.pieces, grid: Grid { origin: curve.origin }, noise: curve.noise }
     }
 
-    /// Number of pieces.
-    pub fn count(&self) -> usize {
-        self.pieces.len()
+    /// Round-off of a place.
+    pub fn noise(&self) -> f64 {
+        self.noise
     }
 
     /// The piece that holds a parameter, and the parameter in it.
@@ -70,11 +70,14 @@ impl<'a> Track<'a> {
         Node { u, place: self.grid.snap(place), tangent, curvature: jet.curvature() }
     }
 
-    /// Distance between arcs and the parts of the curve they stand for.
-    pub fn measure(&self, arcs: &[Arc; 2], from: f64, to: f64) -> Distance {
+    /// Distance between arcs and the parts of the curve they stand for, and the parameter between.
+    pub fn measure(&self, arcs: &[Arc; 2], from: f64, to: f64) -> (Distance, f64) {
         let joint = self.beyond(arcs[0].end, arcs[0].end_tangent(), from, to);
-        let first = self.measure_arc(&arcs[0], from, joint);
-        if first.bound.is_infinite() { first } else { first.max(self.measure_arc(&arcs[1], joint, to)) }
+        let mut distance = self.measure_arc(&arcs[0], from, joint);
+        if distance.bound.is_finite() {
+            distance = distance.max(self.measure_arc(&arcs[1], joint, to));
+        }
+        (distance, joint)
     }
 
     /// Distance between an arc and the curve between two parameters.
