@@ -9,6 +9,7 @@ mod error;
 mod features;
 mod fit;
 mod interpolate;
+mod measure;
 mod nurbs;
 mod piece;
 mod pieces;

@@ -12,7 +12,7 @@
 use super::biarc::Arc;
 use super::cuts::{CutKind, Stretch};
 use super::spiral::{Cell, Fitter, Scheme};
-use super::track::{Side, Track};
+use super::track::Track;
 
 /// Largest depth of division before a run is cut at all its cuts.
 const MAX_DEPTH: u32 = 4;
@@ -45,8 +45,7 @@ impl Divided<'_, '_> {
         if depth == 0 {
             return stretches.iter().try_for_each(|s| self.fit_one(s));
         }
-        let ends = ends(self.track, &stretches[0], &stretches[stretches.len() - 1]);
-        let cells = self.fitter.fit(self.track, ends, self.goal.0, Scheme::Tilted)?;
+        let cells = self.fitter.fit(self.track, stretches, self.goal.0, Scheme::Tilted)?;
         let wrong = wrong_cuts(cells, stretches, self.track.noise());
         if wrong.is_empty() {
             self.out.extend_from_slice(cells);
@@ -64,24 +63,20 @@ impl Divided<'_, '_> {
 
     /// One stretch, by another scheme where curvatures are not monotone.
     fn fit_one(&mut self, stretch: &Stretch) -> Option<()> {
-        let ends = ends(self.track, stretch, stretch);
+        let run = std::slice::from_ref(stretch);
         let (tolerance, scheme) = self.goal;
         let schemes = [scheme, Scheme::Osculating, Scheme::Bisection];
         let tried = if matches!(scheme, Scheme::Fewest | Scheme::Tilted) { &schemes[..] } else { &schemes[..1] };
         for (i, &scheme) in tried.iter().enumerate() {
-            let cells = self.fitter.fit(self.track, ends, tolerance, scheme)?;
+            let cells = self.fitter.fit(self.track, run, tolerance, scheme)?;
             let noise = self.track.noise();
-            if i + 1 == tried.len() || wrong_cuts(cells, std::slice::from_ref(stretch), noise).is_empty() {
+            if i + 1 == tried.len() || wrong_cuts(cells, run, noise).is_empty() {
                 self.out.extend_from_slice(cells);
                 return Some(());
             }
         }
         Some(())
     }
-}
-
-fn ends(track: &Track, first: &Stretch, last: &Stretch) -> [super::biarc::Node; 2] {
-    [track.cut_node(first.from.u, Side::After), track.cut_node(last.to.u, Side::Before)]
 }
 
 /// An arc with the parameters between which it stands for the curve.

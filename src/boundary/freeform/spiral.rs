@@ -14,6 +14,8 @@
 
 use super::biarc::{Arc, Joint, Node, biarc};
 use super::bound::Distance;
+use super::cuts::Stretch;
+use super::measure::Measure;
 use super::track::{Side, Track};
 
 /// How nodes and joints are chosen.
@@ -40,23 +42,27 @@ const MAX_SWEEPS: usize = 12;
 /// Divisions by measured errors that are tried with one number of biarcs.
 const MAX_TRIES: usize = 2;
 
-/// One biarc in so many is given away when errors do not become equal any further.
-const SLACK: usize = 64;
+/// Part of the cells given away, so that errors need not be equal to the last percent.
+const SLACK: f64 = 1.0 / 256.0;
 
-/// Samples of the density of arcs in one piece.
-const SAMPLES: usize = 8;
+/// Part of a cell given away for each unlikeness to its neighbors, and the most of it.
+const ROUGH_SLACK: f64 = 0.5;
+const MAX_SLACK: f64 = 0.125;
 
 /// A cell counts at least this part of the largest error when errors are made equal, so that cells
 /// of no error keep a length.
 const LEAST_ERROR: f64 = 1.0 / 512.0;
 
-/// A stretch on its way to biarcs; kept from stretch to stretch for its buffers.
+/// A run on its way to biarcs; kept from run to run for its buffers.
 #[derive(Debug, Default)]
 pub(super) struct Fitter {
     nodes: Vec<Node>,
+    /// The measure at the nodes.
+    at: Vec<f64>,
     cells: Vec<Cell>,
-    /// Parameters and a growing measure at them, to be divided evenly.
-    measure: Vec<(f64, f64)>,
+    measure: Measure,
+    /// What each cell counts.
+    counts: Vec<f64>,
     best: Vec<Cell>,
 }
 
@@ -76,16 +82,20 @@ pub(super) struct Cell {
 }
 
 impl Fitter {
-    /// Biarcs from one cut to another within `tolerance`; `None` when the limit on effort is reached.
-    pub fn fit(&mut self, track: &Track, ends: [Node; 2], tolerance: f64, scheme: Scheme) -> Option<&[Cell]> {
+    /// Biarcs along a run within `tolerance`; `None` when the limit on effort is reached.
+    pub fn fit(&mut self, track: &Track, run: &[Stretch], tolerance: f64, scheme: Scheme) -> Option<&[Cell]> {
         self.best.clear();
-        match scheme {
-            Scheme::Bisection => {}
-            Scheme::Osculating => self.equal_errors(track, ends, tolerance, Joint::Osculating),
-            Scheme::Tilted | Scheme::Fewest => self.equal_errors(track, ends, tolerance, Joint::Middle),
+        let (from, to) = (run[0].from.u, run[run.len() - 1].to.u);
+        let ends = [track.cut_node(from, Side::After), track.cut_node(to, Side::Before)];
+        let joint = match scheme {
+            Scheme::Tilted | Scheme::Fewest => Joint::Middle,
+            Scheme::Osculating | Scheme::Bisection => Joint::Osculating,
+        };
+        if scheme != Scheme::Bisection {
+            self.measure.begin(track, run);
+            self.equal_errors(track, ends, tolerance, joint);
         }
         if self.best.is_empty() {
-            let joint = if scheme == Scheme::Tilted { Joint::Middle } else { Joint::Osculating };
             self.halve(track, ends, tolerance, joint)?;
         }
         Some(&self.best)
@@ -93,17 +103,17 @@ impl Fitter {
 
     /// Nodes of equal error; the best division found goes to `best`.
     fn equal_errors(&mut self, track: &Track, ends: [Node; 2], tolerance: f64, joint: Joint) {
-        let total = self.measure_density(track, ends);
         let constant = if joint == Joint::Middle { 3f64.sqrt() / 216.0 } else { 1.0 / 12.0 };
-        let wanted = (0.5 * total * (constant / tolerance).cbrt()).ceil();
+        let wanted = (0.5 * self.measure.total() * (constant / tolerance).cbrt()).ceil();
         let mut count = if wanted < MAX_BIARCS as f64 { (wanted as usize).max(1) } else { return };
         let mut tries = 0;
         for _ in 0..MAX_SWEEPS {
             self.divide(track, ends, count, joint == Joint::Middle);
             self.build(track, joint);
             let worst = self.cells.iter().fold(0.0, |m: f64, c| m.max(c.distance.bound));
-            let needed = if worst.is_finite() { self.measure_errors(worst, tolerance) } else { 2 * count };
+            let needed = if worst.is_finite() { self.correct(worst, tolerance) } else { 2 * count };
             let fits = worst <= tolerance;
+            if std::env::var("DBG").is_ok() { let e: Vec<String> = self.cells.iter().take(40).map(|c| format!("{:.2}", c.distance.bound/tolerance)).collect(); eprintln!("count {count} needed {needed} worst {:.3} {}", worst/tolerance, e.join(" ")); }
             if fits {
                 std::mem::swap(&mut self.cells, &mut self.best);
             }
@@ -115,7 +125,7 @@ impl Fitter {
                 // Errors are not equal yet: once more with the same number, then with some more.
                 tries += 1;
                 if tries > MAX_TRIES {
-                    (count, tries) = (count + 1 + count / SLACK, 0);
+                    (count, tries) = (count + 1 + (count as f64 * 4.0 * SLACK) as usize, 0);
                 }
             } else {
                 (count, tries) = (needed, 0);
@@ -126,59 +136,40 @@ impl Fitter {
         }
     }
 
-    /// Integral of the density of arcs over the stretch.
-    fn measure_density(&mut self, track: &Track, [from, to]: [Node; 2]) -> f64 {
-        self.measure.clear();
-        self.measure.push((from.u, 0.0));
-        let mut sum = 0.0;
-        let mut whole = from.u.floor();
-        while whole < to.u {
-            let (a, b) = ((from.u - whole).max(0.0), (to.u - whole).min(1.0));
-            let step = (b - a) / SAMPLES as f64;
-            let piece = track.piece(whole as usize);
-            for i in 0..SAMPLES {
-                let density = piece.jet(a + (i as f64 + 0.5) * step).arc_density();
-                if density.is_finite() {
-                    sum += density * step;
-                }
-                self.measure.push((whole + a + (i + 1) as f64 * step, sum));
-            }
-            whole += 1.0;
-        }
-        if let Some(last) = self.measure.last_mut() {
-            last.0 = to.u;
-        }
-        sum
-    }
-
-    /// The measure that makes measured errors equal; answers how many cells it should take then.
-    fn measure_errors(&mut self, worst: f64, tolerance: f64) -> usize {
-        self.measure.clear();
-        self.measure.push((self.nodes[0].u, 0.0));
-        let mut sum = 0.0;
-        for (cell, node) in self.cells.iter().zip(&self.nodes[1..]) {
-            sum += (cell.distance.bound.max(LEAST_ERROR * worst) / tolerance).cbrt();
-            self.measure.push((node.u, sum));
-        }
+    /// Corrects the measure by errors; answers how many cells it should take then.
+    ///
+    /// Where neighbors differ, at apices, knots and ends, errors depend on how the nodes happen to lie:
+    /// cells there count a little more.
+    fn correct(&mut self, worst: f64, tolerance: f64) -> usize {
+        let (at, counts) = (&self.at, &mut self.counts);
+        counts.clear();
+        counts.extend(self.cells.iter().map(|c| (c.distance.bound.max(LEAST_ERROR * worst) / tolerance).cbrt()));
+        let factor = |i: usize| counts[i] / (at[i + 1] - at[i]);
+        let rough = |i: usize| {
+            let unlike = |j: usize| (factor(j) / factor(i)).ln().abs();
+            unlike(i.saturating_sub(1)).max(unlike((i + 1).min(counts.len() - 1)))
+        };
+        let boosted =
+            |i: usize| counts[i] * (1.0 + SLACK + (ROUGH_SLACK * rough(i)).min(MAX_SLACK));
+        let n = counts.len();
+        let sum: f64 = (0..n).map(boosted).sum();
+        self.measure.correct((0..n).map(|i| ([at[i], at[i + 1]], boosted(i))));
         (sum.ceil() as usize).max(1)
     }
 
     /// Nodes that divide the measure in `count` equal parts.
     fn divide(&mut self, track: &Track, [from, to]: [Node; 2], count: usize, tilted: bool) {
         self.nodes.clear();
+        self.at.clear();
         self.nodes.push(from);
-        let total = self.measure[self.measure.len() - 1].1;
-        let mut at = 0;
-        for i in 1..count {
-            let goal = total * i as f64 / count as f64;
-            while at + 2 < self.measure.len() && self.measure[at + 1].1 < goal {
-                at += 1;
-            }
-            let ((u0, m0), (u1, m1)) = (self.measure[at], self.measure[at + 1]);
-            let share = if m1 > m0 { ((goal - m0) / (m1 - m0)).clamp(0.0, 1.0) } else { 0.5 };
-            self.nodes.push(node(track, u0 + share * (u1 - u0)));
-        }
+        self.at.push(0.0);
+        let (nodes, at) = (&mut self.nodes, &mut self.at);
+        self.measure.divide(count, |u, m| {
+            nodes.push(node(track, u));
+            at.push(m);
+        });
         self.nodes.push(to);
+        self.at.push(self.measure.total());
         if tilted {
             self.tilt(track);
         }
