@@ -29,8 +29,14 @@ fn main() {
             let slopes = before.map(|b| [0, 1].map(|i| -(counts[i] / b[i]).log10())).unwrap_or([f64::NAN; 2]);
             println!(
                 "  1e-{exponent} {:8} {:6.3} {:6.3} {:6} {:6.3} {:8.3} {:8} {:12.0}",
-                counts[0], slopes[0], counts[0] / least, counts[1], slopes[1],
-                ours.bound / ours.found, extrema(&ours), speed(&fit, eps)
+                counts[0],
+                slopes[0],
+                counts[0] / least,
+                counts[1],
+                slopes[1],
+                ours.bound / ours.found,
+                extrema(&ours),
+                speed(&fit, eps)
             );
             before = Some(counts);
         }
@@ -68,7 +74,8 @@ fn extrema(fit: &Fit) -> usize {
     let mut signs: Vec<bool> = Vec::new();
     for i in 0..k.len() {
         let step = k[(i + 1) % k.len()] - k[i];
-        let h = fit.path.element(i).chord().length().min(fit.path.element((i + 1) % k.len()).chord().length());
+        let h =
+            fit.path.element(i).chord().length().min(fit.path.element((i + 1) % k.len()).chord().length());
         if step.abs() > 64.0 * f64::EPSILON * size / (h * h) {
             signs.push(step > 0.0);
         }
@@ -85,8 +92,11 @@ fn curves() -> Vec<(&'static str, f64, Fitted)> {
         ("snow-flake", snow_flake()),
     ];
     let size = vector(4.0, 2.0).length();
-    let mut all: Vec<(&'static str, f64, Fitted)> =
-        vec![("ellipse 2:1", size, Box::new(move |scheme, eps| ellipse.to_arcs_by(scheme, eps).expect("a fit")))];
+    let mut all: Vec<(&'static str, f64, Fitted)> = vec![(
+        "ellipse 2:1",
+        size,
+        Box::new(move |scheme, eps| ellipse.to_arcs_by(scheme, eps).expect("a fit")),
+    )];
     for (name, spline) in splines {
         let size = medial::Bounds::around(spline.points().iter().copied()).diagonal();
         all.push((name, size, Box::new(move |scheme, eps| spline.to_arcs_by(scheme, eps).expect("a fit"))));
@@ -112,8 +122,20 @@ fn closed(points: Vec<Point>, weights: Vec<f64>) -> Nurbs {
 /// A trunk with branches that become shorter to the top.
 fn tree() -> Nurbs {
     let side = [
-        (4.0, 0.0), (5.0, 8.0), (4.0, 16.0), (30.0, 10.0), (34.0, 16.0), (10.0, 24.0), (6.0, 32.0),
-        (26.0, 30.0), (28.0, 36.0), (8.0, 44.0), (5.0, 50.0), (18.0, 50.0), (19.0, 56.0), (6.0, 62.0),
+        (4.0, 0.0),
+        (5.0, 8.0),
+        (4.0, 16.0),
+        (30.0, 10.0),
+        (34.0, 16.0),
+        (10.0, 24.0),
+        (6.0, 32.0),
+        (26.0, 30.0),
+        (28.0, 36.0),
+        (8.0, 44.0),
+        (5.0, 50.0),
+        (18.0, 50.0),
+        (19.0, 56.0),
+        (6.0, 62.0),
         (4.0, 70.0),
     ];
     let right = side.iter().map(|&(x, y)| point(x, y));
@@ -126,8 +148,17 @@ fn tree() -> Nurbs {
 /// Six arms with side arms.
 fn snow_flake() -> Nurbs {
     let arm = [
-        (8.0, -0.45), (20.0, -0.10), (26.0, -0.40), (31.0, -0.30), (28.0, -0.08), (44.0, -0.08), (46.0, 0.08),
-        (28.0, 0.08), (31.0, 0.30), (26.0, 0.40), (20.0, 0.10),
+        (8.0, -0.45),
+        (20.0, -0.10),
+        (26.0, -0.40),
+        (31.0, -0.30),
+        (28.0, -0.08),
+        (44.0, -0.08),
+        (46.0, 0.08),
+        (28.0, 0.08),
+        (31.0, 0.30),
+        (26.0, 0.40),
+        (20.0, 0.10),
     ];
     let mut points = Vec::new();
     for i in 0..6 {

@@ -9,7 +9,7 @@ mod error;
 mod features;
 mod fit;
 mod interpolate;
-mod measure;
+mod march;
 mod nurbs;
 mod piece;
 mod pieces;

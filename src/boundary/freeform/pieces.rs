@@ -19,6 +19,8 @@ pub(super) struct Pieces {
     pub origin: Point,
     /// Bound on the round-off of a control point, in job units.
     pub noise: f64,
+    /// Diagonal of the box around the control points, in job units.
+    pub extent: f64,
     /// The pieces; each begins where the one before ends, to the last bit.
     pub pieces: Vec<Piece>,
     /// Whether the last piece ends where the first begins.
@@ -34,7 +36,13 @@ impl Pieces {
     /// No pieces yet, for a curve within a box.
     pub fn around(bounds: &Bounds) -> Pieces {
         let noise = 0.5 * f64::EPSILON * POINT_ROUNDINGS * bounds.magnitude();
-        Pieces { origin: bounds.center(), noise, pieces: Vec::new(), closed: false }
+        Pieces {
+            origin: bounds.center(),
+            noise,
+            extent: bounds.diagonal(),
+            pieces: Vec::new(),
+            closed: false,
+        }
     }
 
     /// Appends a piece that begins where the last one ends, to round-off. A piece of no extent is

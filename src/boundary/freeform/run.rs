@@ -9,10 +9,10 @@
 //! its part, it is the extremum itself. Where the curvatures show another picture than the cuts, the
 //! run is divided at the apices concerned, in the end at every cut.
 
-use super::biarc::Arc;
+use super::biarc::{Arc, Node};
 use super::cuts::{CutKind, Stretch};
 use super::spiral::{Cell, Fitter, Scheme};
-use super::track::Track;
+use super::track::{Side, Track};
 
 /// Largest depth of division before a run is cut at all its cuts.
 const MAX_DEPTH: u32 = 4;
@@ -40,15 +40,13 @@ struct Divided<'a, 'b> {
 impl Divided<'_, '_> {
     fn fit(&mut self, stretches: &[Stretch], depth: u32) -> Option<()> {
         if stretches.len() == 1 {
-            return self.fit_one(&stretches[0]);
+            return self.fit_one(stretches);
         }
         if depth == 0 {
-            return stretches.iter().try_for_each(|s| self.fit_one(s));
+            return stretches.chunks(1).try_for_each(|s| self.fit_one(s));
         }
-        let cells = self.fitter.fit(self.track, stretches, self.goal.0, Scheme::Tilted)?;
-        let wrong = wrong_cuts(cells, stretches, self.track.noise());
+        let wrong = self.attempt(stretches, self.goal.1)?;
         if wrong.is_empty() {
-            self.out.extend_from_slice(cells);
             return Some(());
         }
         let mut from = 0;
@@ -62,20 +60,33 @@ impl Divided<'_, '_> {
     }
 
     /// One stretch, by another scheme where curvatures are not monotone.
-    fn fit_one(&mut self, stretch: &Stretch) -> Option<()> {
-        let run = std::slice::from_ref(stretch);
-        let (tolerance, scheme) = self.goal;
-        let schemes = [scheme, Scheme::Osculating, Scheme::Bisection];
-        let tried = if matches!(scheme, Scheme::Fewest | Scheme::Tilted) { &schemes[..] } else { &schemes[..1] };
-        for (i, &scheme) in tried.iter().enumerate() {
-            let cells = self.fitter.fit(self.track, run, tolerance, scheme)?;
-            let noise = self.track.noise();
-            if i + 1 == tried.len() || wrong_cuts(cells, run, noise).is_empty() {
-                self.out.extend_from_slice(cells);
+    fn fit_one(&mut self, stretch: &[Stretch]) -> Option<()> {
+        let scheme = self.goal.1;
+        let others = [Scheme::Osculating, Scheme::Bisection];
+        let whole = matches!(scheme, Scheme::Fewest | Scheme::Tilted);
+        for scheme in [scheme].into_iter().chain(others.into_iter().take(if whole { 2 } else { 0 })) {
+            if self.attempt(stretch, scheme)?.is_empty() {
                 return Some(());
             }
         }
-        Some(())
+        let ends = self.ends(stretch);
+        self.fitter.fit(self.track, ends, self.goal, self.out)
+    }
+
+    /// Appends biarcs for a run if their curvatures are right; answers the cuts where they are not.
+    fn attempt(&mut self, stretches: &[Stretch], scheme: Scheme) -> Option<Vec<usize>> {
+        let (begin, ends) = (self.out.len(), self.ends(stretches));
+        self.fitter.fit(self.track, ends, (self.goal.0, scheme), self.out)?;
+        let wrong = wrong_cuts(&self.out[begin..], stretches, self.track.noise());
+        if !wrong.is_empty() {
+            self.out.truncate(begin);
+        }
+        Some(wrong)
+    }
+
+    fn ends(&self, stretches: &[Stretch]) -> [Node; 2] {
+        let (from, to) = (stretches[0].from.u, stretches[stretches.len() - 1].to.u);
+        [self.track.cut_node(from, Side::After), self.track.cut_node(to, Side::Before)]
     }
 }
 
@@ -106,7 +117,8 @@ fn wrong_cuts(cells: &[Cell], stretches: &[Stretch], noise: f64) -> Vec<usize> {
             [Span::of(a, c.from, c.joint, noise), Span::of(b, c.joint, c.to, noise)]
         })
         .collect();
-    let apices: Vec<usize> = (1..stretches.len()).filter(|&i| stretches[i].from.kind == CutKind::Apex).collect();
+    let apices: Vec<usize> =
+        (1..stretches.len()).filter(|&i| stretches[i].from.kind == CutKind::Apex).collect();
     let at = |i: usize| stretches[apices[i]].from.u;
     // Number of apices before a parameter.
     let before = |u: f64| apices.partition_point(|&i| stretches[i].from.u < u);

@@ -14,6 +14,7 @@ pub(super) struct Track<'a> {
     /// Where nodes are stored.
     pub grid: Grid,
     noise: f64,
+    extent: f64,
 }
 
 /// Which side of a parameter counts where pieces meet.
@@ -32,7 +33,12 @@ const MAX_STEPS: usize = 80;
 impl<'a> Track<'a> {
     /// The track of some pieces.
     pub fn new(curve: &'a Pieces) -> Track<'a> {
-        Track { pieces: &curve.pieces, grid: Grid { origin: curve.origin }, noise: curve.noise }
+        Track {
+            pieces: &curve.pieces,
+            grid: Grid { origin: curve.origin },
+            noise: curve.noise,
+            extent: curve.extent,
+        }
     }
 
     /// Round-off of a place.
@@ -68,6 +74,51 @@ impl<'a> Track<'a> {
         let jet = piece.jet(t);
         let tangent = leg.unwrap_or(jet.d1).unit();
         Node { u, place: self.grid.snap(place), tangent, curvature: jet.curvature() }
+    }
+
+    /// The place at a parameter.
+    pub fn place(&self, u: f64) -> Vector {
+        let (piece, t) = self.locate(u, Side::Before);
+        piece.at(t)
+    }
+
+    /// The node on the curve at a parameter that is no cut.
+    pub fn node(&self, u: f64) -> Node {
+        self.node_and_slope(u).0
+    }
+
+    /// The node on the curve at a parameter that is no cut, and the derivative of the curvature.
+    pub fn node_and_slope(&self, u: f64) -> (Node, f64) {
+        let (piece, t) = self.locate(u, Side::Before);
+        let jet = piece.jet(t);
+        let node =
+            Node { u, place: self.grid.snap(jet.q), tangent: jet.d1.unit(), curvature: jet.curvature() };
+        (node, jet.curvature_slope())
+    }
+
+    /// Length of the diagonal of the box around all control points.
+    pub fn extent(&self) -> f64 {
+        self.extent
+    }
+
+    /// The first parameter from a node towards `limit` at a distance; `limit` if there is none.
+    pub fn beyond_distance(&self, from: &Node, distance: f64, limit: f64) -> f64 {
+        let forward = limit > from.u;
+        let sign = if forward { 1.0 } else { -1.0 };
+        let mut u = from.u;
+        loop {
+            let side = if forward { Side::After } else { Side::Before };
+            let (piece, t) = self.locate(u, side);
+            let whole = u - t;
+            let last = if forward { (limit - whole).min(1.0) } else { (limit - whole).max(0.0) };
+            if let Some(t) = crossing(piece, (t, last), from.place, distance) {
+                return whole + t;
+            }
+            u = whole + last;
+            if (limit - u) * sign <= 0.0 {
+                return limit;
+            }
+        }
     }
 
     /// Distance between arcs and the parts of the curve they stand for, and the parameter between.
@@ -133,3 +184,57 @@ impl<'a> Track<'a> {
         whole + t
     }
 }
+
+/// Divisions of a piece, at least, in the search for a distance.
+const LEAST_DIVISIONS: f64 = 8.0;
+
+/// Where a piece, run from one parameter to another, is first at a distance from a place.
+fn crossing(piece: &Piece, (from, to): (f64, f64), place: Vector, distance: f64) -> Option<f64> {
+    let sign = if to > from { 1.0 } else { -1.0 };
+    let (q, d1) = piece.motion(from);
+    let missing = distance - (q - place).length();
+    if missing <= 0.0 {
+        return Some(from);
+    }
+    let mut stride = (missing / d1.length()).min(1.0 / LEAST_DIVISIONS);
+    let (mut near, mut far) = (from, from);
+    loop {
+        if far == to {
+            return None;
+        }
+        far = if (to - far) * sign <= stride { to } else { far + sign * stride };
+        if (piece.at(far) - place).length() >= distance {
+            break;
+        }
+        near = far;
+        stride = (2.0 * stride).min(1.0 / LEAST_DIVISIONS);
+    }
+    Some(refined(piece, near, far, place, distance))
+}
+
+/// Where a piece is at a distance from a place: nearer at `near`, not at `far`.
+fn refined(piece: &Piece, mut near: f64, mut far: f64, place: Vector, distance: f64) -> f64 {
+    let mut t = far;
+    for _ in 0..MAX_STEPS {
+        let (q, d1) = piece.motion(t);
+        let w = q - place;
+        let length = w.length();
+        if length >= distance {
+            far = t;
+        } else {
+            near = t;
+        }
+        let step = (distance - length) * length / w.dot(d1);
+        let next = t + step;
+        let inside = (next - near) * (next - far) <= 0.0;
+        let next = if inside { next } else { 0.5 * (near + far) };
+        if (next - t).abs() <= f64::EPSILON || step.abs() <= CLOSE_ENOUGH * (far - near).abs() {
+            return next;
+        }
+        t = next;
+    }
+    t
+}
+
+/// A step of Newton's method so much shorter than the bracket squares to less than round-off.
+const CLOSE_ENOUGH: f64 = 1e-9;
