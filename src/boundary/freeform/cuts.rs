@@ -32,9 +32,16 @@ pub(super) enum CutKind {
     Apex,
     /// Its curvature changes the sign.
     Inflection,
+    /// The derivative of its curvature jumps.
+    Kink,
 }
 
 impl CutKind {
+    /// Whether biarcs may run over it.
+    pub fn is_soft(self) -> bool {
+        matches!(self, CutKind::Apex | CutKind::Inflection | CutKind::Kink)
+    }
+
     /// Whether the tangent is continuous.
     pub fn is_smooth(self) -> bool {
         !matches!(self, CutKind::End | CutKind::Corner | CutKind::Cusp)
@@ -68,6 +75,10 @@ pub(super) struct Stretch {
 /// A jump of the curvature counts when it moves the curve, over the longer of both pieces, by more
 /// than this part of the tolerance: smaller ones are written digits of a smooth spline.
 const JUMP_SHARE: f64 = 1.0 / 64.0;
+
+/// Jumps of the derivative of the curvature by more than this factor are worth a node where biarcs
+/// need one.
+const KINK: f64 = 2.0;
 
 /// Roundings of a curvature at a knot, in noise of control points over the length of a leg, for the
 /// largest degree.
@@ -175,7 +186,11 @@ impl Joints<'_> {
             return Some(CutKind::Apex);
         }
         // A root of the curvature in the knot itself.
-        (k * l < 0.0).then_some(CutKind::Inflection)
+        if k * l < 0.0 {
+            return Some(CutKind::Inflection);
+        }
+        let (s, t) = (a.jet(1.0).curvature_slope().abs(), b.jet(0.0).curvature_slope().abs());
+        (s.max(t) > KINK * s.min(t)).then_some(CutKind::Kink)
     }
 }
 

@@ -110,8 +110,7 @@ fn fit(curve: &Pieces, tolerance: f64, scheme: Scheme) -> Result<Fit, CurveError
     let stretches = stretches(curve, tolerance);
     stretches.iter().for_each(|s| cuts.count(s.from.kind));
     let goes_on = |a: &Stretch, b: &Stretch| {
-        let soft = matches!(b.from.kind, CutKind::Apex | CutKind::Inflection);
-        soft && a.kind == StretchKind::Spiral && b.kind == StretchKind::Spiral
+        b.from.kind.is_soft() && a.kind == StretchKind::Spiral && b.kind == StretchKind::Spiral
     };
     let mut cells = Vec::new();
     for run in stretches.chunk_by(goes_on) {
@@ -132,7 +131,7 @@ fn fit(curve: &Pieces, tolerance: f64, scheme: Scheme) -> Result<Fit, CurveError
 impl Cuts {
     fn count(&mut self, kind: CutKind) {
         match kind {
-            CutKind::End => {}
+            CutKind::End | CutKind::Kink => {}
             CutKind::Corner => self.corners += 1,
             CutKind::Cusp => self.cusps += 1,
             CutKind::Jump => self.jumps += 1,

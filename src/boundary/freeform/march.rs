@@ -13,7 +13,7 @@
 //! measured corrects it until it is nearly the tolerance.
 
 use super::biarc::{Joint, Node};
-use super::spiral::{Cell, MAX_BIARCS, cell};
+use super::spiral::{Cell, MAX_BIARCS, Scheme, cell};
 use super::track::{Side, Track};
 
 /// The error of a step is the tolerance, or less by this part.
@@ -58,6 +58,10 @@ struct Goal<'a, 'b> {
     track: &'a Track<'b>,
     tolerance: f64,
     joint: Joint,
+    /// Whether tangents are turned at nodes.
+    tilted: bool,
+    /// The error of an arc of length 1 where the derivative of the curvature is 1.
+    constant: f64,
     extent: f64,
 }
 
@@ -67,12 +71,18 @@ impl March {
         &mut self,
         track: &Track,
         ends: [Node; 2],
-        (tolerance, joint): (f64, Joint),
+        (tolerance, scheme): (f64, Scheme),
         out: &mut Vec<Cell>,
     ) -> Option<()> {
         let begin = out.len();
         self.behind.clear();
-        let goal = Goal { track, tolerance, joint, extent: track.extent() };
+        let (joint, constant) = match scheme {
+            Scheme::Osculating | Scheme::Bisection => (Joint::Osculating, 1.0 / 12.0),
+            Scheme::Plain => (Joint::Middle, 2.0 / 81.0),
+            Scheme::Fewest | Scheme::Tilted => (Joint::Middle, 3f64.sqrt() / 216.0),
+        };
+        let tilted = matches!(scheme, Scheme::Fewest | Scheme::Tilted);
+        let goal = Goal { track, tolerance, joint, tilted, constant, extent: track.extent() };
         let done = self.meet(&goal, ends, out);
         if done.is_none() {
             out.truncate(begin);
@@ -119,14 +129,6 @@ impl March {
 }
 
 impl Goal<'_, '_> {
-    /// The error of an arc of length 1 where the derivative of the curvature is 1.
-    fn constant(&self) -> f64 {
-        match self.joint {
-            Joint::Middle => 3f64.sqrt() / 216.0,
-            Joint::Osculating => 1.0 / 12.0,
-        }
-    }
-
     fn front(&self, node: Node, side: Side) -> Front {
         let (piece, t) = self.track.locate(node.u, side);
         let slope = piece.jet(t).curvature_slope();
@@ -135,14 +137,14 @@ impl Goal<'_, '_> {
 
     /// Length of a biarc for a derivative of the curvature.
     fn length(&self, slope: f64) -> f64 {
-        2.0 * ((1.0 - 0.5 * WINDOW) * self.tolerance / (self.constant() * slope.abs())).cbrt()
+        2.0 * ((1.0 - 0.5 * WINDOW) * self.tolerance / (self.constant * slope.abs())).cbrt()
     }
 
     /// The node at a parameter, its tangent turned for a biarc of some length on one side and one as
     /// long as it may be on the other, and the derivative of the curvature there.
     fn node(&self, u: f64, length: f64) -> (Node, f64) {
         let (mut node, slope) = self.track.node_and_slope(u);
-        if self.joint == Joint::Middle {
+        if self.tilted {
             let h = 0.5 * (length + self.length(slope).min(2.0 * length));
             let angle = slope * h * h / 48.0;
             if angle.abs() <= MAX_TILT {

@@ -5,88 +5,139 @@
 //! arcs lets curvatures be told apart.
 //!
 //! **Method.** A node at every apex and inflection would cost an arc or two at each. So the whole run
-//! is divided by equal errors first, and an arc may run over an apex: having the mean curvature of
-//! its part, it is the extremum itself. Where the curvatures show another picture than the cuts, the
-//! run is divided at the apices concerned, in the end at every cut.
+//! is laid at once first, and an arc may run over an apex: having the mean curvature of its part, it is
+//! the extremum itself. Where the curvatures show another picture than the cuts, the nearest cut gets a
+//! node; where that does not help, its neighborhood gets a more careful scheme.
 
 use super::biarc::{Arc, Node};
 use super::cuts::{CutKind, Stretch};
 use super::spiral::{Cell, Fitter, Scheme};
 use super::track::{Side, Track};
+use std::ops::Range;
 
-/// Largest depth of division before a run is cut at all its cuts.
-const MAX_DEPTH: u32 = 4;
+/// Rounds of putting nodes and choosing schemes; cuts that are still wrong then stay so.
+const MAX_ROUNDS: usize = 12;
+
+/// Schemes for a part of a run, each more careful with curvatures than the one before.
+const CAREFUL: [Scheme; 4] = [Scheme::Tilted, Scheme::Plain, Scheme::Osculating, Scheme::Bisection];
 
 /// Fits a run; the biarcs are appended to `out`. `None` when the limit on effort is reached.
 pub(super) fn fit_run(
     fitter: &mut Fitter,
     track: &Track,
-    goal: (f64, Scheme),
+    (tolerance, scheme): (f64, Scheme),
     stretches: &[Stretch],
     out: &mut Vec<Cell>,
 ) -> Option<()> {
-    let whole = matches!(goal.1, Scheme::Fewest | Scheme::Tilted);
-    let depth = if whole { MAX_DEPTH } else { 0 };
-    Divided { fitter, track, goal, out }.fit(stretches, depth)
+    if !matches!(scheme, Scheme::Fewest | Scheme::Tilted) {
+        return stretches
+            .chunks(1)
+            .try_for_each(|s| fitter.fit(track, ends(track, s), (tolerance, scheme), out));
+    }
+    let mut plan = Plan { hard: vec![false; stretches.len()], care: vec![0; stretches.len()] };
+    let mut laid = Laid::default();
+    let begin = out.len();
+    for _ in 0..MAX_ROUNDS {
+        out.truncate(begin);
+        laid.lay(fitter, track, tolerance, stretches, &plan)?;
+        laid.parts.iter().for_each(|p| out.extend_from_slice(&laid.cells[p.cells.clone()]));
+        let wrong = wrong_places(&out[begin..], stretches, track.noise());
+        if !plan.improve(&wrong, stretches) {
+            break;
+        }
+    }
+    Some(())
 }
 
-struct Divided<'a, 'b> {
-    fitter: &'a mut Fitter,
-    track: &'a Track<'b>,
-    goal: (f64, Scheme),
-    out: &'a mut Vec<Cell>,
+fn ends(track: &Track, stretches: &[Stretch]) -> [Node; 2] {
+    let (from, to) = (stretches[0].from.u, stretches[stretches.len() - 1].to.u);
+    [track.cut_node(from, Side::After), track.cut_node(to, Side::Before)]
 }
 
-impl Divided<'_, '_> {
-    fn fit(&mut self, stretches: &[Stretch], depth: u32) -> Option<()> {
-        if stretches.len() == 1 {
-            return self.fit_one(stretches);
-        }
-        if depth == 0 {
-            return stretches.chunks(1).try_for_each(|s| self.fit_one(s));
-        }
-        let wrong = self.attempt(stretches, self.goal.1)?;
-        if wrong.is_empty() {
-            return Some(());
-        }
-        let mut from = 0;
-        for to in wrong.into_iter().chain([stretches.len()]) {
-            if to > from {
-                self.fit(&stretches[from..to], depth - 1)?;
+/// Where a run gets nodes, and how careful it is laid.
+struct Plan {
+    /// Whether there is a node where a stretch begins.
+    hard: Vec<bool>,
+    /// Number of the scheme of a stretch.
+    care: Vec<usize>,
+}
+
+impl Plan {
+    /// Takes more care at some places; answers whether it can.
+    fn improve(&mut self, wrong: &[f64], stretches: &[Stretch]) -> bool {
+        let mut better = false;
+        let n = stretches.len();
+        let (hard, care) = (self.hard.clone(), self.care.clone());
+        for &u in wrong {
+            let after = stretches[1..].partition_point(|s| s.from.u < u) + 1;
+            let off =
+                |i: usize| if i == 0 || i >= n { f64::INFINITY } else { (stretches[i].from.u - u).abs() };
+            let nearest = if off(after) < off(after - 1) { after } else { after - 1 };
+            if nearest > 0 && nearest < n && !hard[nearest] {
+                self.hard[nearest] = true;
+                better = true;
+                continue;
             }
+            for i in [nearest.saturating_sub(1), nearest.min(n - 1)] {
+                if care[i] + 1 < CAREFUL.len() {
+                    self.care[i] = care[i] + 1;
+                    better = true;
+                }
+            }
+        }
+        better
+    }
+}
+
+/// A part of a run between nodes at cuts.
+#[derive(Clone)]
+struct Part {
+    stretches: Range<usize>,
+    care: usize,
+    /// Its biarcs, as places in the list of all.
+    cells: Range<usize>,
+}
+
+/// The parts of a run as they are laid, kept while their plan does not change.
+#[derive(Default)]
+struct Laid {
+    cells: Vec<Cell>,
+    parts: Vec<Part>,
+}
+
+impl Laid {
+    fn lay(
+        &mut self,
+        fitter: &mut Fitter,
+        track: &Track,
+        tolerance: f64,
+        stretches: &[Stretch],
+        plan: &Plan,
+    ) -> Option<()> {
+        let mut parts = Vec::with_capacity(self.parts.len() + 2);
+        let mut from = 0;
+        for to in 1..=stretches.len() {
+            let joined = to < stretches.len() && !plan.hard[to] && plan.care[to] == plan.care[from];
+            if joined {
+                continue;
+            }
+            let care = plan.care[from];
+            let old = self.parts.binary_search_by_key(&from, |p| p.stretches.start);
+            let old = old.ok().map(|i| &self.parts[i]);
+            let cells = match old.filter(|p| p.stretches == (from..to) && p.care == care) {
+                Some(part) => part.cells.clone(),
+                None => {
+                    let begin = self.cells.len();
+                    let run = &stretches[from..to];
+                    fitter.fit(track, ends(track, run), (tolerance, CAREFUL[care]), &mut self.cells)?;
+                    begin..self.cells.len()
+                }
+            };
+            parts.push(Part { stretches: from..to, care, cells });
             from = to;
         }
+        self.parts = parts;
         Some(())
-    }
-
-    /// One stretch, by another scheme where curvatures are not monotone.
-    fn fit_one(&mut self, stretch: &[Stretch]) -> Option<()> {
-        let scheme = self.goal.1;
-        let others = [Scheme::Osculating, Scheme::Bisection];
-        let whole = matches!(scheme, Scheme::Fewest | Scheme::Tilted);
-        for scheme in [scheme].into_iter().chain(others.into_iter().take(if whole { 2 } else { 0 })) {
-            if self.attempt(stretch, scheme)?.is_empty() {
-                return Some(());
-            }
-        }
-        let ends = self.ends(stretch);
-        self.fitter.fit(self.track, ends, self.goal, self.out)
-    }
-
-    /// Appends biarcs for a run if their curvatures are right; answers the cuts where they are not.
-    fn attempt(&mut self, stretches: &[Stretch], scheme: Scheme) -> Option<Vec<usize>> {
-        let (begin, ends) = (self.out.len(), self.ends(stretches));
-        self.fitter.fit(self.track, ends, (self.goal.0, scheme), self.out)?;
-        let wrong = wrong_cuts(&self.out[begin..], stretches, self.track.noise());
-        if !wrong.is_empty() {
-            self.out.truncate(begin);
-        }
-        Some(wrong)
-    }
-
-    fn ends(&self, stretches: &[Stretch]) -> [Node; 2] {
-        let (from, to) = (stretches[0].from.u, stretches[stretches.len() - 1].to.u);
-        [self.track.cut_node(from, Side::After), self.track.cut_node(to, Side::Before)]
     }
 }
 
@@ -107,9 +158,8 @@ impl Span {
     }
 }
 
-/// The cuts of a run (as numbers of the stretches that begin there) near which the curvatures of the
-/// arcs do not rise and fall as those of the curve; ascending. For a run without inner cuts, 0 says so.
-fn wrong_cuts(cells: &[Cell], stretches: &[Stretch], noise: f64) -> Vec<usize> {
+/// The parameters where the curvatures of the arcs do not rise and fall as those of the curve.
+fn wrong_places(cells: &[Cell], stretches: &[Stretch], noise: f64) -> Vec<f64> {
     let spans: Vec<Span> = cells
         .iter()
         .flat_map(|c| {
@@ -125,14 +175,6 @@ fn wrong_cuts(cells: &[Cell], stretches: &[Stretch], noise: f64) -> Vec<usize> {
     let inside = |s: &Span| before(s.to) - before(s.from);
     let mut wrong = Vec::new();
     let mut changes = Vec::new();
-    let mut note = |i: usize| {
-        let nearest = i.min(apices.len().saturating_sub(1));
-        wrong.extend(apices.get(nearest).copied());
-        wrong.extend(i.checked_sub(1).and_then(|i| apices.get(i)).copied());
-        if apices.is_empty() {
-            wrong.push(stretches.len() / 2);
-        }
-    };
     for (i, w) in spans.windows(2).enumerate() {
         let step = w[1].curvature - w[0].curvature;
         let hidden = step.abs() <= w[0].error + w[1].error;
@@ -143,7 +185,7 @@ fn wrong_cuts(cells: &[Cell], stretches: &[Stretch], noise: f64) -> Vec<usize> {
         let certain = inside(&w[0]) == inside(&w[1]);
         let too_many = inside(&w[0]) > 1 || inside(&w[1]) > 1;
         if too_many || certain && (step > 0.0) != rising && (!hidden || inside(&w[0]) > 0) {
-            note(before(w[0].to));
+            wrong.push(w[0].to);
         }
         // A dent in the extremum: down and up again around the arc that runs over an apex.
         if let Some(next) = spans.get(i + 2)
@@ -154,15 +196,13 @@ fn wrong_cuts(cells: &[Cell], stretches: &[Stretch], noise: f64) -> Vec<usize> {
             let rising = stretches[0].rises != (a % 2 == 1);
             debug_assert!(at(a) >= w[1].from);
             if (step > 0.0) != rising && (next.curvature > w[1].curvature) == rising {
-                note(a);
+                wrong.push(at(a));
             }
         }
     }
     changes.dedup();
     if wrong.is_empty() && changes.len().saturating_sub(1) != apices.len() && !apices.is_empty() {
-        wrong = apices;
+        wrong.extend((0..apices.len()).map(at));
     }
-    wrong.sort_unstable();
-    wrong.dedup();
     wrong
 }

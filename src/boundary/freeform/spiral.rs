@@ -17,6 +17,8 @@ pub enum Scheme {
     Fewest,
     /// Tangents turned a little, between nodes of equal error.
     Tilted,
+    /// Tangents of the curve and joints in the middle, between nodes of equal error.
+    Plain,
     /// Osculating arcs between nodes of equal error.
     Osculating,
     /// Osculating arcs and halving (S0, Algorithm 1 and section 2.3).
@@ -59,10 +61,10 @@ impl Fitter {
         out: &mut Vec<Cell>,
     ) -> Option<()> {
         let joint = match scheme {
-            Scheme::Tilted | Scheme::Fewest => Joint::Middle,
+            Scheme::Tilted | Scheme::Fewest | Scheme::Plain => Joint::Middle,
             Scheme::Osculating | Scheme::Bisection => Joint::Osculating,
         };
-        if scheme != Scheme::Bisection && self.march.run(track, ends, (tolerance, joint), out).is_some() {
+        if scheme != Scheme::Bisection && self.march.run(track, ends, (tolerance, scheme), out).is_some() {
             return Some(());
         }
         self.halve(track, ends, (tolerance, joint), out)
