@@ -9,7 +9,7 @@
 //! `k` and half sweep `theta`: no center, so it holds for straight arcs too. `e = d - k d^2 / 2` for
 //! the signed distance `d` to the circle, thus `|d| <= 2|e| / (1 + sqrt(1 - 2|k e|))`. Along a
 //! rational piece `e` is a ratio of Bernstein forms of twice its degree, bounded by the ratios of
-//! their coefficients and halved until the bound is tight. The angle seen from the center is
+//! their coefficients and divided until the bound is tight. The angle seen from the center is
 //! monotone, shown by the control polygon, so every normal of the arc meets the part once and the
 //! bound holds in both directions (S0, section 2.3, footnote 2, in curvature form).
 
@@ -18,12 +18,15 @@ use super::biarc::Arc;
 use super::piece::{MAX_CURVE_DEGREE, Piece};
 use crate::geom::Vector;
 
-/// The bound is at most this many times the largest distance, unless halving is given up.
-pub(super) const TIGHT: f64 = 1.02;
+/// The bound is at most this many times the largest distance, unless division is given up. So near
+/// that the nodes, which follow from bounds, do not depend on the parameter of the curve.
+pub(super) const TIGHT: f64 = 1.0 + 1.0 / 1_048_576.0;
 
-/// Halvings before a bound that is not tight is taken as it is, and a turn that is not shown to be
-/// monotone counts as none.
-const MAX_HALVINGS: u32 = 10;
+/// Divisions before a bound that is not tight is taken as it is.
+const MAX_DIVISIONS: u32 = 24;
+
+/// Halvings of a part that is not shown to be monotone, before it counts as running back.
+const MAX_HALVINGS: u32 = 8;
 
 const LEN: usize = 2 * MAX_CURVE_DEGREE + 1;
 
@@ -41,6 +44,11 @@ impl Distance {
     pub const ZERO: Distance = Distance { bound: 0.0, found: 0.0 };
     /// What is known of parts that could not be matched: nothing.
     pub const UNKNOWN: Distance = Distance { bound: f64::INFINITY, found: f64::INFINITY };
+
+    /// The largest distance as it does not depend on how a bound was found; never below the bound.
+    pub fn steady(self) -> f64 {
+        self.bound.max(TIGHT * self.found)
+    }
 
     /// Of both together.
     pub fn max(self, other: Distance) -> Distance {
@@ -88,19 +96,22 @@ impl Frame {
     pub fn measure(&self, part: &Piece) -> Distance {
         let mut local = *part;
         local.map(|p| self.enter(p));
-        if !self.is_monotone(&local, MAX_HALVINGS) {
+        let back = self.turning_back(&local, MAX_HALVINGS);
+        if back.is_infinite() {
             return Distance::UNKNOWN;
         }
         let power = Power::along(&local, self);
         let mut range = Distance { bound: 0.0, found: power.ends() };
-        power.bound(MAX_HALVINGS, &mut range);
-        Distance { bound: self.distance(range.bound), found: self.distance(range.found.min(range.bound)) }
+        power.bound(MAX_DIVISIONS, &mut range);
+        let found = self.distance(range.found.min(range.bound));
+        Distance { bound: self.distance(range.bound) + back, found }
     }
 
-    /// Whether the angle of the part seen from the center runs in one direction. With derivative
-    /// `q'` that is `(cos(theta) - k q.y) q'.x + k q.x q'.y > 0`; `q` lies in the box of the control
-    /// points, and `q'` is a positive sum of the steps between them.
-    fn is_monotone(&self, part: &Piece, halvings: u32) -> bool {
+    /// How far the part may run back as seen from the center: 0 when the angle is monotone. With
+    /// derivative `q'` that is `(cos(theta) - k q.y) q'.x + k q.x q'.y > 0`; `q` lies in the box of the
+    /// control points, and `q'` is a positive sum of the steps between them. Small parts for which that
+    /// is not shown count with their extent.
+    fn turning_back(&self, part: &Piece, halvings: u32) -> f64 {
         let k = 2.0 * self.half_curvature;
         let points = part.points();
         let (mut low, mut high) = (points[0], points[0]);
@@ -111,22 +122,24 @@ impl Frame {
         let (a, b) = ([self.cos - k * low.y, self.cos - k * high.y], [k * low.x, k * high.x]);
         let least = |[a, b]: [f64; 2], s: f64| (a * s).min(b * s);
         if points.windows(2).all(|w| least(a, w[1].x - w[0].x) + least(b, w[1].y - w[0].y) >= 0.0) {
-            return true;
+            return 0.0;
         }
-        if halvings == 0 || self.goes_back(part) {
-            return false;
+        if halvings == 0 {
+            return (high - low).length();
         }
-        self.is_monotone(&part.part(0.0, 0.5), halvings - 1)
-            && self.is_monotone(&part.part(0.5, 1.0), halvings - 1)
+        if halvings == MAX_HALVINGS && self.goes_back(part) {
+            return f64::INFINITY;
+        }
+        self.turning_back(&part.part(0.0, 0.5), halvings - 1)
+            + self.turning_back(&part.part(0.5, 1.0), halvings - 1)
     }
 
     /// Whether the angle seen from the center is no larger at the end of a part than at its start.
     fn goes_back(&self, part: &Piece) -> bool {
         let k = 2.0 * self.half_curvature;
-        let arm = |p: Vector| Vector { x: self.cos - k * p.y, y: k * p.x };
         let (from, to) = (part.start(), part.end());
         let middle = (from + to) * 0.5;
-        arm(middle).x * (to.x - from.x) + arm(middle).y * (to.y - from.y) <= 0.0
+        (self.cos - k * middle.y) * (to.x - from.x) + k * middle.x * (to.y - from.y) <= 0.0
     }
 }
 
@@ -180,41 +193,53 @@ impl Power {
     }
 
     /// Widens a range by bound and found values of this part.
-    fn bound(mut self, halvings: u32, range: &mut Distance) {
+    fn bound(mut self, divisions: u32, range: &mut Distance) {
         let largest = self.largest();
         if largest <= range.bound {
             return;
         }
-        if largest <= TIGHT * range.found || halvings == 0 {
+        if largest <= TIGHT * range.found || divisions == 0 {
             range.bound = largest;
             return;
         }
-        let before = self.halve();
+        let before = self.divide();
         range.found = range.found.max(before.end());
-        before.bound(halvings - 1, range);
-        self.bound(halvings - 1, range);
+        // The larger part first: then the other is often settled at once.
+        let (first, second) = if before.largest() > self.largest() { (before, self) } else { (self, before) };
+        first.bound(divisions - 1, range);
+        second.bound(divisions - 1, range);
+    }
+
+    fn ratio(&self, i: usize) -> f64 {
+        self.numerator[i] / self.denominator[i]
     }
 
     fn end(&self) -> f64 {
-        (self.numerator[self.degree] / self.denominator[self.degree]).abs()
+        self.ratio(self.degree).abs()
     }
 
-    /// Keeps the second half and answers the first.
-    fn halve(&mut self) -> Power {
+    /// Keeps the second part and answers the first: of two halves, or of parts that meet about where
+    /// the power is stationary, as the bound is tight there at once.
+    fn divide(&mut self) -> Power {
+        let n = self.degree;
+        let (first, last) = (self.ratio(1) - self.ratio(0), self.ratio(n) - self.ratio(n - 1));
+        let t = first / (first - last);
+        let t = if first * last < 0.0 { t.clamp(0.125, 0.875) } else { 0.5 };
         let mut before = *self;
-        halve(&mut self.numerator, &mut before.numerator, self.degree);
+        divide(&mut self.numerator, &mut before.numerator, n, t);
         if self.rational {
-            halve(&mut self.denominator, &mut before.denominator, self.degree);
+            divide(&mut self.denominator, &mut before.denominator, n, t);
         }
         before
     }
 }
 
-fn halve(c: &mut [f64; LEN], before: &mut [f64; LEN], n: usize) {
+fn divide(c: &mut [f64; LEN], before: &mut [f64; LEN], n: usize, t: f64) {
+    let s = 1.0 - t;
     for k in 0..n {
         before[k] = c[0];
         for i in 0..n - k {
-            c[i] = 0.5 * (c[i] + c[i + 1]);
+            c[i] = s * c[i] + t * c[i + 1];
         }
     }
     before[n] = c[0];
@@ -275,10 +300,10 @@ mod tests {
     }
 
     #[test]
-    fn a_part_that_turns_back_has_no_bound() {
-        let points = [vector(0.0, 0.0), vector(1.2, 0.1), vector(-0.2, 0.1), vector(1.0, 0.0)];
+    fn a_part_that_turns_back_has_a_bound_that_says_so() {
+        let points = [vector(0.0, 0.0), vector(3.0, 0.1), vector(-2.0, 0.1), vector(1.0, 0.0)];
         let arc = Arc { start: vector(0.0, 0.0), end: vector(1.0, 0.0), bulge: -0.05 };
-        assert_eq!(Frame::of(&arc).measure(&Piece::new(&points, &[1.0; 4])), Distance::UNKNOWN);
+        assert!(Frame::of(&arc).measure(&Piece::new(&points, &[1.0; 4])).bound > 0.3);
     }
 
     #[test]

@@ -103,12 +103,7 @@ pub(super) fn stretches(curve: &Pieces, tolerance: f64) -> Vec<Stretch> {
         inner_cuts(i as f64, shape, curve.pieces[i].degree(), &mut cuts);
     }
     if curve.closed {
-        // A closed curve has apices, but round-off may hide those of one that is nearly a circle.
-        let first = cuts.first().copied().unwrap_or(Cut { u: 0.0, kind: CutKind::Jump });
-        if cuts.is_empty() {
-            cuts.push(first);
-        }
-        cuts.push(Cut { u: first.u + count as f64, ..first });
+        close(curve, &mut cuts);
     } else {
         cuts.push(Cut { u: count as f64, kind: CutKind::End });
     }
@@ -123,6 +118,25 @@ pub(super) fn stretches(curve: &Pieces, tolerance: f64) -> Vec<Stretch> {
         Stretch { from: w[0], to: w[1], kind, rises: slope > 0.0 }
     };
     cuts.windows(2).map(stretch).collect()
+}
+
+/// Ends the cuts of a closed curve with the first of them. It begins at the apex of the largest
+/// curvature where biarcs may run over all cuts, so that the seam does not matter.
+fn close(curve: &Pieces, cuts: &mut Vec<Cut>) {
+    let count = curve.pieces.len() as f64;
+    // A closed curve has apices, but round-off may hide those of one that is nearly a circle.
+    if cuts.is_empty() {
+        cuts.push(Cut { u: 0.0, kind: CutKind::Jump });
+    }
+    if cuts.iter().all(|c| c.kind.is_soft()) {
+        let bend = |c: &Cut| curve.pieces[c.u as usize].jet(c.u.fract()).curvature().abs();
+        let apices = (0..cuts.len()).filter(|&i| cuts[i].kind == CutKind::Apex);
+        let first = apices.max_by(|&a, &b| bend(&cuts[a]).total_cmp(&bend(&cuts[b]))).unwrap_or(0);
+        cuts.rotate_left(first);
+        let begin = cuts[0].u;
+        cuts.iter_mut().filter(|c| c.u < begin).for_each(|c| c.u += count);
+    }
+    cuts.push(Cut { u: cuts[0].u + count, ..cuts[0] });
 }
 
 /// Cuts inside piece `first`.

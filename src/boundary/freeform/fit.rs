@@ -186,11 +186,13 @@ impl Path<'_> {
     }
 
     fn push_cells(&mut self, cells: &[Cell], begin: CutKind) {
-        for (i, cell) in cells.iter().enumerate() {
+        let mut smooth = begin.is_smooth();
+        for cell in cells {
             self.distance = self.distance.max(cell.distance);
-            let smooth = i > 0 || begin.is_smooth();
-            self.elements.push(Piecewise { arc: cell.arcs[0], smooth, exact: false });
-            self.elements.push(Piecewise { arc: cell.arcs[1], smooth: true, exact: false });
+            for arc in cell.arcs.into_iter().filter(|arc| arc.start != arc.end) {
+                self.elements.push(Piecewise { arc, smooth: smooth && !cell.sharp, exact: false });
+                smooth = !cell.sharp;
+            }
         }
     }
 

@@ -32,6 +32,9 @@ const CLOSING: f64 = 2.0;
 /// Largest turn of a tangent at a node, in radians: far beyond what the model above is good for.
 const MAX_TILT: f64 = 0.125;
 
+/// Steps that meet are made shorter by this factor until they do not.
+const SHORTER: f64 = 0.625;
+
 /// Laps of the search for the middle between two places.
 const MIDDLE_STEPS: usize = 60;
 
@@ -121,8 +124,10 @@ impl March {
                 out.extend(halves);
                 return Some(());
             }
+            let (c, first, d, second) = goal.shorter(&a, &b, [c.step, d.step])?;
             out.push(first);
-            a = c;
+            self.behind.push(second);
+            (a, b) = (c, d);
         }
         None
     }
@@ -175,7 +180,7 @@ impl Goal<'_, '_> {
             let (node, slope) = self.node(u, length);
             let forward = u > from.node.u;
             let found = if forward { self.cell(&from.node, &node) } else { self.cell(&node, &from.node) };
-            let error = found.distance.bound / self.tolerance;
+            let error = found.distance.steady() / self.tolerance;
             if error <= 1.0 {
                 good = Some((Front { node, slopes: [slope, here], step: length }, found));
                 if error >= 1.0 - WINDOW || u == limit {
@@ -191,6 +196,28 @@ impl Goal<'_, '_> {
             }
         }
         good
+    }
+
+    /// Steps from both ends shorter than those that meet.
+    fn shorter(&self, a: &Front, b: &Front, steps: [f64; 2]) -> Option<(Front, Cell, Front, Cell)> {
+        let mut share = 1.0;
+        for _ in 0..MAX_CORRECTIONS {
+            share *= SHORTER;
+            let [c, d] = [(a, b, steps[0]), (b, a, steps[1])].map(|(from, to, step)| {
+                let length = share * step;
+                let u = self.track.beyond_distance(&from.node, length, to.node.u);
+                let (node, slope) = self.node(u, length);
+                Front { node, slopes: [slope, from.slopes[0]], step: length }
+            });
+            if c.node.u >= d.node.u {
+                continue;
+            }
+            let (first, second) = (self.cell(&a.node, &c.node), self.cell(&d.node, &b.node));
+            if [first, second].iter().all(|cell| cell.distance.bound <= self.tolerance) {
+                return Some((c, first, d, second));
+            }
+        }
+        None
     }
 
     /// The parameter between two nodes whose place is as far from both.

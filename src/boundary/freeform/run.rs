@@ -170,9 +170,10 @@ fn wrong_places(cells: &[Cell], stretches: &[Stretch], noise: f64) -> Vec<f64> {
     let apices: Vec<usize> =
         (1..stretches.len()).filter(|&i| stretches[i].from.kind == CutKind::Apex).collect();
     let at = |i: usize| stretches[apices[i]].from.u;
-    // Number of apices before a parameter.
+    // Number of apices before a parameter, and of those that are not behind it.
     let before = |u: f64| apices.partition_point(|&i| stretches[i].from.u < u);
-    let inside = |s: &Span| before(s.to) - before(s.from);
+    let up_to = |u: f64| apices.partition_point(|&i| stretches[i].from.u <= u);
+    let inside = |s: &Span| before(s.to).saturating_sub(up_to(s.from));
     let mut wrong = Vec::new();
     let mut changes = Vec::new();
     for (i, w) in spans.windows(2).enumerate() {
@@ -182,7 +183,7 @@ fn wrong_places(cells: &[Cell], stretches: &[Stretch], noise: f64) -> Vec<f64> {
             changes.push(step > 0.0);
         }
         let rising = stretches[0].rises != (before(w[0].to) % 2 == 1);
-        let certain = inside(&w[0]) == inside(&w[1]);
+        let certain = inside(&w[0]) == inside(&w[1]) && up_to(w[0].to) == before(w[0].to);
         let too_many = inside(&w[0]) > 1 || inside(&w[1]) > 1;
         if too_many || certain && (step > 0.0) != rising && (!hidden || inside(&w[0]) > 0) {
             wrong.push(w[0].to);
@@ -192,7 +193,7 @@ fn wrong_places(cells: &[Cell], stretches: &[Stretch], noise: f64) -> Vec<f64> {
             && inside(&w[1]) == 1
             && !hidden
         {
-            let a = before(w[1].from);
+            let a = up_to(w[1].from);
             let rising = stretches[0].rises != (a % 2 == 1);
             debug_assert!(at(a) >= w[1].from);
             if (step > 0.0) != rising && (next.curvature > w[1].curvature) == rising {

@@ -41,6 +41,8 @@ pub(super) struct Cell {
     pub to: f64,
     /// How far the arcs are from the curve.
     pub distance: Distance,
+    /// Whether it is one segment for a part with turns too small for arcs. Its second arc is empty.
+    pub sharp: bool,
 }
 
 /// Fits runs; keeps its buffers from one to the next.
@@ -97,6 +99,13 @@ impl Fitter {
                 a = b;
                 continue;
             }
+            let reach = track.reach(a.place, a.u, b.u);
+            if reach <= SMALL * tolerance {
+                out.push(blunt(&a, &b, reach));
+                self.waiting.pop();
+                a = b;
+                continue;
+            }
             let u = 0.5 * (a.u + b.u);
             if u <= a.u || u >= b.u || out.len() + self.waiting.len() > limit {
                 return None;
@@ -107,6 +116,16 @@ impl Fitter {
     }
 }
 
+/// A part of the curve within this part of the tolerance is as good as a segment.
+const SMALL: f64 = 0.25;
+
+/// A segment for a part of the curve within `reach` of its start.
+fn blunt(a: &Node, b: &Node, reach: f64) -> Cell {
+    let arcs = [(a.place, b.place), (b.place, b.place)].map(|(start, end)| Arc { start, end, bulge: 0.0 });
+    let distance = Distance { bound: 2.0 * reach, found: 0.0 };
+    Cell { arcs, from: a.u, joint: b.u, to: b.u, distance, sharp: true }
+}
+
 /// The biarc between two nodes with its distance from the curve.
 pub(super) fn cell(track: &Track, a: &Node, b: &Node, joint: Joint) -> Cell {
     let none = Arc { start: a.place, end: b.place, bulge: 0.0 };
@@ -114,8 +133,8 @@ pub(super) fn cell(track: &Track, a: &Node, b: &Node, joint: Joint) -> Cell {
     match biarc(a, b, joint, track.grid) {
         Some(arcs) => {
             let (distance, joint) = track.measure(&arcs, from, to);
-            Cell { arcs, from, joint, to, distance }
+            Cell { arcs, from, joint, to, distance, sharp: false }
         }
-        None => Cell { arcs: [none; 2], from, joint: to, to, distance: Distance::UNKNOWN },
+        None => Cell { arcs: [none; 2], from, joint: to, to, distance: Distance::UNKNOWN, sharp: false },
     }
 }

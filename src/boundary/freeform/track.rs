@@ -96,6 +96,21 @@ impl<'a> Track<'a> {
         (node, jet.curvature_slope())
     }
 
+    /// A distance from a place that the curve between two parameters does not exceed.
+    pub fn reach(&self, place: Vector, from: f64, to: f64) -> f64 {
+        let mut reach = 0.0f64;
+        let mut whole = from.floor();
+        while whole < to {
+            let (a, b) = ((from - whole).max(0.0), (to - whole).min(1.0));
+            if a < b {
+                let part = self.piece(whole as usize).part(a, b);
+                reach = part.points().iter().fold(reach, |r, &p| r.max((p - place).length()));
+            }
+            whole += 1.0;
+        }
+        reach
+    }
+
     /// Length of the diagonal of the box around all control points.
     pub fn extent(&self) -> f64 {
         self.extent
