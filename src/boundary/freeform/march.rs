@@ -118,7 +118,9 @@ impl March {
             }
             // Two biarcs are enough: any node between both steps will do, best the one in the middle.
             let middle = goal.middle(&d.node, &c.node);
-            let middle = goal.node(middle, (goal.track.place(middle) - a.node.place).length()).0;
+            let place = goal.track.place(middle);
+            let [before, after] = [a, b].map(|front| (place - front.node.place).length());
+            let middle = goal.node(middle, before.min(after)).0;
             let halves = [goal.cell(&a.node, &middle), goal.cell(&middle, &b.node)];
             if halves.iter().all(|h| h.distance.bound <= goal.tolerance) {
                 out.extend(halves);
