@@ -63,6 +63,11 @@ impl Arc {
         2.0 * power.abs() / (1.0 + (1.0 - 2.0 * k * power).max(0.0).sqrt())
     }
 
+    /// Unit tangent at the start.
+    pub fn start_tangent(&self) -> Vector {
+        -Arc { start: self.end, end: self.start, bulge: -self.bulge }.end_tangent()
+    }
+
     /// Unit tangent at the end.
     pub fn end_tangent(&self) -> Vector {
         let b2 = self.bulge * self.bulge;

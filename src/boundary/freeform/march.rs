@@ -12,7 +12,7 @@
 //! known at every place before any arc is. The length of a step follows from `k'` too; the error
 //! measured corrects it until it is nearly the tolerance.
 
-use super::biarc::{Joint, Node};
+use super::biarc::{Arc, Joint, Node};
 use super::spiral::{Cell, MAX_BIARCS, Scheme, cell};
 use super::track::{Side, Track};
 
@@ -31,6 +31,9 @@ const CLOSING: f64 = 2.0;
 
 /// Largest turn of a tangent at a node, in radians: far beyond what the model above is good for.
 const MAX_TILT: f64 = 0.125;
+
+/// Cells on each side of the meeting that share the room left there.
+const SPREAD: usize = 4;
 
 /// Steps that meet are made shorter by this factor until they do not.
 const SHORTER: f64 = 0.625;
@@ -86,12 +89,15 @@ impl March {
         };
         let tilted = matches!(scheme, Scheme::Fewest | Scheme::Tilted);
         let goal = Goal { track, tolerance, joint, tilted, constant, extent: track.extent() };
-        let done = self.meet(&goal, ends, out);
-        if done.is_none() {
+        if self.meet(&goal, ends, out).is_none() {
             out.truncate(begin);
             return None;
         }
+        let closed = out.len();
         out.extend(self.behind.iter().rev());
+        if tilted {
+            goal.spread(&mut out[begin..], closed - begin);
+        }
         Some(())
     }
 
@@ -222,6 +228,40 @@ impl Goal<'_, '_> {
         None
     }
 
+    /// Spreads the room that is left where both sides have met, before cell `met`, over the cells
+    /// around: a cell much shorter than the turns of its tangents are made for would bend the wrong way.
+    fn spread(&self, cells: &mut [Cell], met: usize) {
+        let (from, to) = (met.saturating_sub(SPREAD + 1), (met + SPREAD).min(cells.len()));
+        let cells = &mut cells[from..to];
+        let count = cells.len();
+        if count < 2 {
+            return;
+        }
+        let lengths: Vec<f64> = cells.iter().map(|c| (c.arcs[1].end - c.arcs[0].start).length()).collect();
+        let evened = evened(&lengths);
+        let mut nodes = vec![Node::default(); count + 1];
+        nodes[0] = node_at(&cells[0].arcs[0], cells[0].from);
+        let last = &cells[count - 1];
+        nodes[count] =
+            Node { u: last.to, place: last.arcs[1].end, tangent: last.arcs[1].end_tangent(), curvature: 0.0 };
+        let half = count / 2;
+        for i in 0..half {
+            let u = self.track.beyond_distance(&nodes[i], evened[i], last.to);
+            nodes[i + 1] = self.node(u, evened[i]).0;
+        }
+        for i in (half + 1..count).rev() {
+            let u = self.track.beyond_distance(&nodes[i + 1], evened[i], cells[0].from);
+            nodes[i] = self.node(u, evened[i]).0;
+        }
+        if nodes.windows(2).any(|w| w[0].u >= w[1].u) {
+            return;
+        }
+        let laid: Vec<Cell> = nodes.windows(2).map(|w| self.cell(&w[0], &w[1])).collect();
+        if laid.iter().all(|c| c.distance.bound <= self.tolerance) {
+            cells.copy_from_slice(&laid);
+        }
+    }
+
     /// The parameter between two nodes whose place is as far from both.
     fn middle(&self, a: &Node, b: &Node) -> f64 {
         let nearer = |u: f64| {
@@ -239,6 +279,21 @@ impl Goal<'_, '_> {
         }
         0.5 * (low + high)
     }
+}
+
+/// The node where an arc begins.
+fn node_at(arc: &Arc, u: f64) -> Node {
+    Node { u, place: arc.start, tangent: arc.start_tangent(), curvature: 0.0 }
+}
+
+/// Lengths with the same sum whose logarithms follow a line: nothing is shorter than its neighbors.
+fn evened(lengths: &[f64]) -> Vec<f64> {
+    // The cells in the middle were cut short, those farther away are as long as they may be.
+    let n = lengths.len();
+    let (first, last) = (lengths[0].ln(), lengths[n - 1].ln());
+    let line: Vec<f64> = (0..n).map(|i| (first + (last - first) * i as f64 / (n - 1) as f64).exp()).collect();
+    let scale = lengths.iter().sum::<f64>() / line.iter().sum::<f64>();
+    line.iter().map(|l| l * scale).collect()
 }
 
 /// Lengths that are known to be too short and too long, with their errors relative to the tolerance.
