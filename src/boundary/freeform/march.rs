@@ -82,20 +82,14 @@ impl March {
     ) -> Option<()> {
         let begin = out.len();
         self.behind.clear();
-        let (joint, constant) = match scheme {
-            Scheme::Osculating | Scheme::Bisection => (Joint::Osculating, 1.0 / 12.0),
-            Scheme::Plain => (Joint::Middle, 2.0 / 81.0),
-            Scheme::Fewest | Scheme::Tilted => (Joint::Middle, 3f64.sqrt() / 216.0),
-        };
-        let tilted = matches!(scheme, Scheme::Fewest | Scheme::Tilted);
-        let goal = Goal { track, tolerance, joint, tilted, constant, extent: track.extent() };
+        let goal = Goal::of(track, tolerance, scheme);
         if self.meet(&goal, ends, out).is_none() {
             out.truncate(begin);
             return None;
         }
         let closed = out.len();
         out.extend(self.behind.iter().rev());
-        if tilted {
+        if goal.tilted {
             goal.spread(&mut out[begin..], closed - begin);
         }
         Some(())
@@ -141,7 +135,17 @@ impl March {
     }
 }
 
-impl Goal<'_, '_> {
+impl<'a, 'b> Goal<'a, 'b> {
+    fn of(track: &'a Track<'b>, tolerance: f64, scheme: Scheme) -> Goal<'a, 'b> {
+        let (joint, constant) = match scheme {
+            Scheme::Osculating | Scheme::Bisection => (Joint::Osculating, 1.0 / 12.0),
+            Scheme::Plain => (Joint::Middle, 2.0 / 81.0),
+            Scheme::Fewest | Scheme::Tilted => (Joint::Middle, 3f64.sqrt() / 216.0),
+        };
+        let tilted = matches!(scheme, Scheme::Fewest | Scheme::Tilted);
+        Goal { track, tolerance, joint, tilted, constant, extent: track.extent() }
+    }
+
     fn front(&self, node: Node, side: Side) -> Front {
         let (piece, t) = self.track.locate(node.u, side);
         let slope = piece.jet(t).curvature_slope();
@@ -279,6 +283,47 @@ impl Goal<'_, '_> {
         }
         0.5 * (low + high)
     }
+}
+
+/// A biarc over an apex, as far to both sides, with its nodes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Centered {
+    /// The biarc.
+    pub cell: Cell,
+    /// Where it begins and ends.
+    pub nodes: [Node; 2],
+}
+
+/// The longest biarc, nearly, that reaches as far to both sides of an apex at `u`, between the
+/// parameters `room` and no farther than `most`. Its joint beside the apex lets both arcs be the
+/// extremum, which a node on the curve would not.
+pub(super) fn centered(track: &Track, u: f64, room: [f64; 2], most: f64, tolerance: f64) -> Option<Centered> {
+    let goal = Goal::of(track, tolerance, Scheme::Tilted);
+    let apex = track.cut_node(u, Side::After);
+    let turning = (0.5 * MAX_TURN / apex.curvature.abs()).min(most);
+    let slopes = [Side::Before, Side::After].map(|side| goal.front(apex, side).slopes[0]);
+    let mut length = slopes.iter().fold(turning, |m, &s| m.min(0.5 * goal.length(s)));
+    let mut good: Option<Centered> = None;
+    let mut bracket = Bracket::default();
+    for _ in 0..MAX_CORRECTIONS {
+        if !(length > track.noise()) {
+            break;
+        }
+        let nodes = room.map(|limit| goal.node(track.beyond_distance(&apex, length, limit), 2.0 * length).0);
+        let cell = goal.cell(&nodes[0], &nodes[1]);
+        let error = cell.distance.steady() / tolerance;
+        if error <= 1.0 {
+            good = Some(Centered { cell, nodes });
+            if error >= 1.0 - WINDOW || length >= most {
+                break;
+            }
+        }
+        if bracket.narrow(length, error) {
+            break;
+        }
+        length = bracket.next(1.0 - 0.5 * WINDOW).min(most);
+    }
+    good
 }
 
 /// The node where an arc begins.

@@ -11,8 +11,10 @@
 
 use super::biarc::{Arc, Node};
 use super::cuts::{CutKind, Stretch};
+use super::march::{Centered, centered};
 use super::spiral::{Cell, Fitter, Scheme};
 use super::track::{Side, Track};
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// Rounds of putting nodes and choosing schemes; cuts that are still wrong then stay so.
@@ -34,12 +36,12 @@ pub(super) fn fit_run(
             .chunks(1)
             .try_for_each(|s| fitter.fit(track, ends(track, s), (tolerance, scheme), out));
     }
-    let mut plan = Plan { hard: vec![false; stretches.len()], care: vec![0; stretches.len()] };
+    let mut plan = Plan { nodes: vec![At::None; stretches.len()], care: vec![0; stretches.len()] };
     let mut laid = Laid::default();
     let begin = out.len();
     for _ in 0..MAX_ROUNDS {
         out.truncate(begin);
-        laid.lay(fitter, track, tolerance, stretches, &plan)?;
+        laid.lay(&mut Work { fitter, track, tolerance, stretches }, &plan)?;
         laid.parts.iter().for_each(|p| out.extend_from_slice(&laid.cells[p.cells.clone()]));
         let wrong = wrong_places(&out[begin..], stretches, track.noise());
         if !plan.improve(&wrong, stretches) {
@@ -54,10 +56,21 @@ fn ends(track: &Track, stretches: &[Stretch]) -> [Node; 2] {
     [track.cut_node(from, Side::After), track.cut_node(to, Side::Before)]
 }
 
+/// What there is at a cut where biarcs may run over it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum At {
+    /// Nothing in particular.
+    None,
+    /// A biarc that reaches as far to both sides.
+    Center,
+    /// A node.
+    Node,
+}
+
 /// Where a run gets nodes, and how careful it is laid.
 struct Plan {
-    /// Whether there is a node where a stretch begins.
-    hard: Vec<bool>,
+    /// What there is where a stretch begins.
+    nodes: Vec<At>,
     /// Number of the scheme of a stretch.
     care: Vec<usize>,
 }
@@ -67,14 +80,16 @@ impl Plan {
     fn improve(&mut self, wrong: &[f64], stretches: &[Stretch]) -> bool {
         let mut better = false;
         let n = stretches.len();
-        let (hard, care) = (self.hard.clone(), self.care.clone());
+        let (nodes, care) = (self.nodes.clone(), self.care.clone());
         for &u in wrong {
             let after = stretches[1..].partition_point(|s| s.from.u < u) + 1;
             let off =
                 |i: usize| if i == 0 || i >= n { f64::INFINITY } else { (stretches[i].from.u - u).abs() };
             let nearest = if off(after) < off(after - 1) { after } else { after - 1 };
-            if nearest > 0 && nearest < n && !hard[nearest] {
-                self.hard[nearest] = true;
+            if nearest > 0 && nearest < n && nodes[nearest] != At::Node {
+                let apex = stretches[nearest].from.kind == CutKind::Apex;
+                let first = apex && nodes[nearest] == At::None;
+                self.nodes[nearest] = if first { At::Center } else { At::Node };
                 better = true;
                 continue;
             }
@@ -89,11 +104,36 @@ impl Plan {
     }
 }
 
-/// A part of a run between nodes at cuts.
+/// What a run is laid with.
+struct Work<'a, 'b> {
+    fitter: &'a mut Fitter,
+    track: &'a Track<'b>,
+    tolerance: f64,
+    stretches: &'a [Stretch],
+}
+
+/// A biarc around an apex reaches over at most this part of the way to the next cuts.
+const CENTER_SHARE: f64 = 0.3125;
+
+impl Work<'_, '_> {
+    /// The biarc around the apex where stretch `i` begins, if there is room for one.
+    fn center(&self, i: usize) -> Option<Centered> {
+        let place = |u: f64| self.track.place(u);
+        let (before, after) = (&self.stretches[i - 1], &self.stretches[i]);
+        let way = |u: f64| (place(u) - place(after.from.u)).length();
+        let most = CENTER_SHARE * way(before.from.u).min(way(after.to.u));
+        centered(self.track, after.from.u, [before.from.u, after.to.u], most, self.tolerance)
+    }
+}
+
+/// A part of a run between nodes, or a biarc around an apex.
 #[derive(Clone)]
 struct Part {
+    /// Its stretches; none for a biarc around an apex.
     stretches: Range<usize>,
     care: usize,
+    /// What there is at both ends.
+    ends: [At; 2],
     /// Its biarcs, as places in the list of all.
     cells: Range<usize>,
 }
@@ -103,41 +143,69 @@ struct Part {
 struct Laid {
     cells: Vec<Cell>,
     parts: Vec<Part>,
+    /// Biarcs around apices.
+    centers: BTreeMap<usize, Option<Centered>>,
 }
 
 impl Laid {
-    fn lay(
-        &mut self,
-        fitter: &mut Fitter,
-        track: &Track,
-        tolerance: f64,
-        stretches: &[Stretch],
-        plan: &Plan,
-    ) -> Option<()> {
+    fn lay(&mut self, work: &mut Work, plan: &Plan) -> Option<()> {
+        let n = work.stretches.len();
         let mut parts = Vec::with_capacity(self.parts.len() + 2);
         let mut from = 0;
-        for to in 1..=stretches.len() {
-            let joined = to < stretches.len() && !plan.hard[to] && plan.care[to] == plan.care[from];
-            if joined {
+        for to in 1..=n {
+            if to < n && plan.nodes[to] == At::None && plan.care[to] == plan.care[from] {
                 continue;
             }
-            let care = plan.care[from];
-            let old = self.parts.binary_search_by_key(&from, |p| p.stretches.start);
-            let old = old.ok().map(|i| &self.parts[i]);
-            let cells = match old.filter(|p| p.stretches == (from..to) && p.care == care) {
-                Some(part) => part.cells.clone(),
-                None => {
-                    let begin = self.cells.len();
-                    let run = &stretches[from..to];
-                    fitter.fit(track, ends(track, run), (tolerance, CAREFUL[care]), &mut self.cells)?;
-                    begin..self.cells.len()
-                }
-            };
-            parts.push(Part { stretches: from..to, care, cells });
+            let ends = [from, to].map(|i| self.at(i, work, plan));
+            parts.push(self.part(from..to, ends, work, plan.care[from])?);
+            if ends[1] == At::Center
+                && let Some(Some(center)) = self.centers.get(&to)
+            {
+                let begin = self.cells.len();
+                self.cells.push(center.cell);
+                parts.push(Part {
+                    stretches: to..to,
+                    care: 0,
+                    ends: [At::Center; 2],
+                    cells: begin..begin + 1,
+                });
+            }
             from = to;
         }
         self.parts = parts;
         Some(())
+    }
+
+    /// What there is where stretch `i` begins: a node where there is no room for anything else.
+    fn at(&mut self, i: usize, work: &Work, plan: &Plan) -> At {
+        if i == 0 || i == work.stretches.len() || plan.nodes[i] != At::Center {
+            return At::Node;
+        }
+        let center = self.centers.entry(i).or_insert_with(|| work.center(i));
+        if center.is_some() { At::Center } else { At::Node }
+    }
+
+    /// The part over some stretches, laid before if nothing has changed.
+    fn part(&mut self, range: Range<usize>, at: [At; 2], work: &mut Work, care: usize) -> Option<Part> {
+        let key = (range.start, range.end);
+        let old = self.parts.binary_search_by_key(&key, |p| (p.stretches.start, p.stretches.end));
+        if let Ok(i) = old
+            && self.parts[i].care == care
+            && self.parts[i].ends == at
+        {
+            return Some(self.parts[i].clone());
+        }
+        let mut nodes = ends(work.track, &work.stretches[range.clone()]);
+        let center = |i: usize| self.centers.get(&i).copied().flatten();
+        if let (At::Center, Some(center)) = (at[0], center(range.start)) {
+            nodes[0] = center.nodes[1];
+        }
+        if let (At::Center, Some(center)) = (at[1], center(range.end)) {
+            nodes[1] = center.nodes[0];
+        }
+        let begin = self.cells.len();
+        work.fitter.fit(work.track, nodes, (work.tolerance, CAREFUL[care]), &mut self.cells)?;
+        Some(Part { stretches: range, care, ends: at, cells: begin..self.cells.len() })
     }
 }
 
