@@ -28,6 +28,9 @@ const MAX_DIVISIONS: u32 = 24;
 /// Halvings of a part that is not shown to be monotone, before it counts as running back.
 const MAX_HALVINGS: u32 = 8;
 
+/// Intervals between samples of the estimate.
+const SAMPLES: usize = 8;
+
 const LEN: usize = 2 * MAX_CURVE_DEGREE + 1;
 
 /// Bound and largest distance found.
@@ -105,6 +108,17 @@ impl Frame {
         power.bound(MAX_DIVISIONS, &mut range);
         let found = self.distance(range.found.min(range.bound));
         Distance { bound: self.distance(range.bound) + back, found }
+    }
+
+    /// The largest distance of some samples of a part from the arc: an estimate, not a bound (S0,
+    /// Algorithm 2).
+    pub fn sample(&self, part: &Piece) -> Distance {
+        let power = |i: usize| {
+            let w = self.enter(part.at(i as f64 / SAMPLES as f64));
+            (self.cos * w.y - self.half_curvature * (w.length_squared() - self.half * self.half)).abs()
+        };
+        let found = self.distance((0..=SAMPLES).map(power).fold(0.0, f64::max));
+        Distance { bound: found, found }
     }
 
     /// How far the part may run back as seen from the center: 0 when the angle is monotone. With

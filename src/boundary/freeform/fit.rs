@@ -105,6 +105,7 @@ fn fit(curve: &Pieces, tolerance: f64, scheme: Scheme) -> Result<Fit, CurveError
         return Ok(path.finished(cuts));
     }
     let track = Track::new(curve);
+    let track = if scheme == Scheme::Published { track.sampled() } else { track };
     let mut fitter = Fitter::default();
     let goal = tolerance - FIT_ROUNDINGS * curve.noise;
     let stretches = stretches(curve, tolerance);

@@ -1,7 +1,7 @@
 //! Whole curves.
 
 use super::*;
-use crate::geom::{Point, point, vector};
+use crate::geom::{point, vector};
 
 fn ellipse() -> EllipseArc {
     EllipseArc::new(point(0.0, 0.0), vector(2.0, 0.0), 0.5, 0.0, 0.0).unwrap()

@@ -83,19 +83,21 @@ impl March {
         let begin = out.len();
         self.behind.clear();
         let goal = Goal::of(track, tolerance, scheme);
-        if self.meet(&goal, ends, out).is_none() {
+        let Some(met) = self.meet(&goal, ends, out) else {
             out.truncate(begin);
             return None;
-        }
-        let closed = out.len();
+        };
+        let (from, to) = ((out.len() - met).saturating_sub(SPREAD).max(begin), out.len() + SPREAD);
         out.extend(self.behind.iter().rev());
         if goal.tilted {
-            goal.spread(&mut out[begin..], closed - begin);
+            let to = to.min(out.len());
+            goal.spread(&mut out[from..to]);
         }
         Some(())
     }
 
-    fn meet(&mut self, goal: &Goal, ends: [Node; 2], out: &mut Vec<Cell>) -> Option<()> {
+    /// Answers how many biarcs were laid where both sides have met.
+    fn meet(&mut self, goal: &Goal, ends: [Node; 2], out: &mut Vec<Cell>) -> Option<usize> {
         let [mut a, mut b] = [goal.front(ends[0], Side::After), goal.front(ends[1], Side::Before)];
         let mut reach = f64::INFINITY;
         while out.len() + self.behind.len() < MAX_BIARCS {
@@ -104,7 +106,7 @@ impl March {
                 let last = goal.cell(&a.node, &b.node);
                 if last.distance.bound <= goal.tolerance {
                     out.push(last);
-                    return Some(());
+                    return Some(1);
                 }
             }
             let (c, first) = goal.step(&a, b.node.u)?;
@@ -124,7 +126,7 @@ impl March {
             let halves = [goal.cell(&a.node, &middle), goal.cell(&middle, &b.node)];
             if halves.iter().all(|h| h.distance.bound <= goal.tolerance) {
                 out.extend(halves);
-                return Some(());
+                return Some(2);
             }
             let (c, first, d, second) = goal.shorter(&a, &b, [c.step, d.step])?;
             out.push(first);
@@ -138,7 +140,7 @@ impl March {
 impl<'a, 'b> Goal<'a, 'b> {
     fn of(track: &'a Track<'b>, tolerance: f64, scheme: Scheme) -> Goal<'a, 'b> {
         let (joint, constant) = match scheme {
-            Scheme::Osculating | Scheme::Bisection => (Joint::Osculating, 1.0 / 12.0),
+            Scheme::Osculating | Scheme::Bisection | Scheme::Published => (Joint::Osculating, 1.0 / 12.0),
             Scheme::Plain => (Joint::Middle, 2.0 / 81.0),
             Scheme::Fewest | Scheme::Tilted => (Joint::Middle, 3f64.sqrt() / 216.0),
         };
@@ -232,11 +234,9 @@ impl<'a, 'b> Goal<'a, 'b> {
         None
     }
 
-    /// Spreads the room that is left where both sides have met, before cell `met`, over the cells
+    /// Spreads the room that is left where both sides have met, over the cells
     /// around: a cell much shorter than the turns of its tangents are made for would bend the wrong way.
-    fn spread(&self, cells: &mut [Cell], met: usize) {
-        let (from, to) = (met.saturating_sub(SPREAD + 1), (met + SPREAD).min(cells.len()));
-        let cells = &mut cells[from..to];
+    fn spread(&self, cells: &mut [Cell]) {
         let count = cells.len();
         if count < 2 {
             return;
@@ -248,14 +248,17 @@ impl<'a, 'b> Goal<'a, 'b> {
         let last = &cells[count - 1];
         nodes[count] =
             Node { u: last.to, place: last.arcs[1].end, tangent: last.arcs[1].end_tangent(), curvature: 0.0 };
-        let half = count / 2;
+        let half = (count - 1) / 2;
         for i in 0..half {
-            let u = self.track.beyond_distance(&nodes[i], evened[i], last.to);
+            let u = self.track.beyond_distance(&nodes[i], evened[i], nodes[count].u);
             nodes[i + 1] = self.node(u, evened[i]).0;
+            let k = count - 1 - i;
+            let u = self.track.beyond_distance(&nodes[k + 1], evened[k], nodes[0].u);
+            nodes[k] = self.node(u, evened[k]).0;
         }
-        for i in (half + 1..count).rev() {
-            let u = self.track.beyond_distance(&nodes[i + 1], evened[i], cells[0].from);
-            nodes[i] = self.node(u, evened[i]).0;
+        if count % 2 == 0 {
+            let u = self.middle(&nodes[half], &nodes[half + 2]);
+            nodes[half + 1] = self.node(u, 0.5 * (evened[half] + evened[half + 1])).0;
         }
         if nodes.windows(2).any(|w| w[0].u >= w[1].u) {
             return;

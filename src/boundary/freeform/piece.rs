@@ -40,22 +40,11 @@ impl Jet {
         self.d1.cross(self.d2) / (speed2 * speed2.sqrt())
     }
 
-    /// Derivative of the curvature by arc length, times the sixth power of the speed.
-    fn slope_numerator(&self) -> f64 {
-        self.d1.cross(self.d3) * self.d1.length_squared()
-            - 3.0 * self.d1.cross(self.d2) * self.d1.dot(self.d2)
-    }
-
     /// Derivative of the curvature by arc length.
     pub fn curvature_slope(&self) -> f64 {
         let speed2 = self.d1.length_squared();
-        self.slope_numerator() / (speed2 * speed2 * speed2)
-    }
-
-    /// Cube root of the derivative of the curvature by arc length, per parameter: the density of
-    /// arcs that all have the same error.
-    pub fn arc_density(&self) -> f64 {
-        self.slope_numerator().abs().cbrt() / self.d1.length()
+        let turn = self.d1.cross(self.d3) * speed2 - 3.0 * self.d1.cross(self.d2) * self.d1.dot(self.d2);
+        turn / (speed2 * speed2 * speed2)
     }
 }
 
@@ -77,11 +66,6 @@ impl Piece {
             }
         }
         piece
-    }
-
-    /// The straight piece between two places.
-    pub fn line(from: Vector, to: Vector) -> Piece {
-        Piece::new(&[from, to], &[1.0, 1.0])
     }
 
     /// Degree of numerator and denominator.
@@ -123,13 +107,6 @@ impl Piece {
     /// The same piece beginning exactly at a place that its start equals to round-off.
     pub fn starting_at(mut self, start: Vector) -> Piece {
         self.points[0] = start;
-        self
-    }
-
-    /// The same piece run backwards.
-    pub fn reversed(mut self) -> Piece {
-        self.points[..=self.degree].reverse();
-        self.weights[..=self.degree].reverse();
         self
     }
 
@@ -296,7 +273,7 @@ mod tests {
 
     #[test]
     fn low_degrees_have_vanishing_derivatives() {
-        let line = Piece::line(vector(1.0, 2.0), vector(3.0, 2.0)).jet(0.25);
+        let line = Piece::new(&[vector(1.0, 2.0), vector(3.0, 2.0)], &[1.0; 2]).jet(0.25);
         assert_eq!((line.q, line.d1), (vector(1.5, 2.0), vector(2.0, 0.0)));
         assert_eq!((line.d2, line.d3), (vector(0.0, 0.0), vector(0.0, 0.0)));
     }

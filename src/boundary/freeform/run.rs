@@ -36,19 +36,40 @@ pub(super) fn fit_run(
             .chunks(1)
             .try_for_each(|s| fitter.fit(track, ends(track, s), (tolerance, scheme), out));
     }
-    let mut plan = Plan { nodes: vec![At::None; stretches.len()], care: vec![0; stretches.len()] };
+    let work = &mut Work { fitter, track, tolerance, stretches };
+    let apices = stretches.iter().any(|s| s.from.kind == CutKind::Apex);
+    let mut plans = vec![At::None];
+    if scheme == Scheme::Fewest && apices && stretches.len() > 1 {
+        plans.push(At::Center);
+    }
+    let mut best: Option<Vec<Cell>> = None;
+    for at in plans {
+        let cells = laid_by(work, at)?;
+        if best.as_ref().is_none_or(|b| cells.len() < b.len()) {
+            best = Some(cells);
+        }
+    }
+    out.extend(best.into_iter().flatten());
+    Some(())
+}
+
+/// Biarcs along a run with something at all apices at first.
+fn laid_by(work: &mut Work, at: At) -> Option<Vec<Cell>> {
+    let apex = |s: &Stretch| if s.from.kind == CutKind::Apex { at } else { At::None };
+    let mut plan =
+        Plan { nodes: work.stretches.iter().map(apex).collect(), care: vec![0; work.stretches.len()] };
     let mut laid = Laid::default();
-    let begin = out.len();
+    let mut cells = Vec::new();
     for _ in 0..MAX_ROUNDS {
-        out.truncate(begin);
-        laid.lay(&mut Work { fitter, track, tolerance, stretches }, &plan)?;
-        laid.parts.iter().for_each(|p| out.extend_from_slice(&laid.cells[p.cells.clone()]));
-        let wrong = wrong_places(&out[begin..], stretches, track.noise());
-        if !plan.improve(&wrong, stretches) {
+        cells.clear();
+        laid.lay(work, &plan)?;
+        laid.parts.iter().for_each(|p| cells.extend_from_slice(&laid.cells[p.cells.clone()]));
+        let wrong = wrong_places(&cells, work.stretches, work.track.noise());
+        if !plan.improve(&wrong, work.stretches) {
             break;
         }
     }
-    Some(())
+    Some(cells)
 }
 
 fn ends(track: &Track, stretches: &[Stretch]) -> [Node; 2] {

@@ -23,6 +23,9 @@ pub enum Scheme {
     Osculating,
     /// Osculating arcs and halving (S0, Algorithm 1 and section 2.3).
     Bisection,
+    /// The same with errors estimated by samples and not proven, as published (S0, Algorithm 2). For
+    /// comparison only: what it calls a bound is the largest error found.
+    Published,
 }
 
 /// Largest number of biarcs in one run.
@@ -64,9 +67,10 @@ impl Fitter {
     ) -> Option<()> {
         let joint = match scheme {
             Scheme::Tilted | Scheme::Fewest | Scheme::Plain => Joint::Middle,
-            Scheme::Osculating | Scheme::Bisection => Joint::Osculating,
+            Scheme::Osculating | Scheme::Bisection | Scheme::Published => Joint::Osculating,
         };
-        if scheme != Scheme::Bisection && self.march.run(track, ends, (tolerance, scheme), out).is_some() {
+        let halves = matches!(scheme, Scheme::Bisection | Scheme::Published);
+        if !halves && self.march.run(track, ends, (tolerance, scheme), out).is_some() {
             return Some(());
         }
         self.halve(track, ends, (tolerance, joint), out)

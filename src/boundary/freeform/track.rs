@@ -15,6 +15,8 @@ pub(super) struct Track<'a> {
     pub grid: Grid,
     noise: f64,
     extent: f64,
+    /// Whether distances are estimated by samples.
+    sampled: bool,
 }
 
 /// Which side of a parameter counts where pieces meet.
@@ -38,7 +40,13 @@ impl<'a> Track<'a> {
             grid: Grid { origin: curve.origin },
             noise: curve.noise,
             extent: curve.extent,
+            sampled: false,
         }
+    }
+
+    /// The same with distances estimated by samples, not proven.
+    pub fn sampled(self) -> Track<'a> {
+        Track { sampled: true, ..self }
     }
 
     /// Round-off of a place.
@@ -158,7 +166,8 @@ impl<'a> Track<'a> {
             let (a, b) = ((from - whole).max(0.0), (to - whole).min(1.0));
             if a < b {
                 let part = self.piece(whole as usize).part(a, b);
-                distance = distance.max(frame.measure(&part));
+                let found = if self.sampled { frame.sample(&part) } else { frame.measure(&part) };
+                distance = distance.max(found);
                 if distance.bound.is_infinite() {
                     break;
                 }
