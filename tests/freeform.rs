@@ -70,10 +70,10 @@ fn uniform(count: usize) -> Vec<f64> {
 /// A closed cubic around a circle of control points.
 fn star(count: usize, weight: f64) -> Nurbs {
     let place = |i: usize| {
-        let r = if i % 2 == 0 { 30.0 } else { 17.0 + 0.3 * i as f64 };
+        let r = if i.is_multiple_of(2) { 30.0 } else { 17.0 + 0.3 * i as f64 };
         point(5.0, -2.0) + Vector::from_angle(TAU * i as f64 / count as f64) * r
     };
-    let weights = (0..count).map(|i| if i % 3 == 0 { weight } else { 1.0 }).collect();
+    let weights = (0..count).map(|i| if i.is_multiple_of(3) { weight } else { 1.0 }).collect();
     Nurbs::new(3, uniform(count + 1), (0..count).map(place).collect(), weights, true).unwrap()
 }
 

@@ -123,20 +123,17 @@ impl Poly {
         let (n, m) = (self.degree, other.degree);
         let mut product = Poly::zero(n + m);
         let roundings = ROUNDING * (PRODUCT_ROUNDINGS + n.min(m) as f64);
-        for i in 0..=n {
-            let scale = BINOMIAL[n][i];
+        for (i, scale) in BINOMIAL[n][..=n].iter().enumerate() {
             let (a, da) = (scale * self.value[i], scale * self.error[i]);
-            for j in 0..=m {
-                let scale = BINOMIAL[m][j];
+            for (j, scale) in BINOMIAL[m][..=m].iter().enumerate() {
                 let (b, db) = (scale * other.value[j], scale * other.error[j]);
                 product.value[i + j] += a * b;
                 product.error[i + j] += a.abs() * (db + roundings * b.abs()) + da * (b.abs() + db);
             }
         }
-        for k in 0..=n + m {
-            let scale = BINOMIAL[n + m][k].recip();
-            product.value[k] *= scale;
-            product.error[k] *= scale;
+        for (k, scale) in BINOMIAL[n + m][..=n + m].iter().enumerate() {
+            product.value[k] /= scale;
+            product.error[k] /= scale;
         }
         product
     }

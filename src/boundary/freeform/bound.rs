@@ -250,8 +250,8 @@ impl Power {
 
 fn divide(c: &mut [f64; LEN], before: &mut [f64; LEN], n: usize, t: f64) {
     let s = 1.0 - t;
-    for k in 0..n {
-        before[k] = c[0];
+    for (k, left) in before[..n].iter_mut().enumerate() {
+        *left = c[0];
         for i in 0..n - k {
             c[i] = s * c[i] + t * c[i + 1];
         }

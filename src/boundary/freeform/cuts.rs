@@ -192,7 +192,8 @@ impl Joints<'_> {
         let length = (a.end() - a.start()).length().max((b.end() - b.start()).length());
         let shift = 0.125 * (k - l).abs() * length * length;
         let blur = length / arrives.length().min(leaves.length());
-        if !(shift <= JUMP_SHARE * self.tolerance + JUMP_ROUNDINGS * noise * blur * blur) {
+        let small = JUMP_SHARE * self.tolerance + JUMP_ROUNDINGS * noise * blur * blur;
+        if shift > small || shift.is_nan() {
             return Some(CutKind::Jump);
         }
         let turns = f.slopes[1] * g.slopes[0] <= 0;

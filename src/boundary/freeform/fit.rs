@@ -175,7 +175,7 @@ impl Path<'_> {
             StretchKind::Straight => Distance::ZERO,
             _ => track.measure_arc(&arc, stretch.from.u, stretch.to.u),
         };
-        if !(distance.bound <= FIT_ROUNDINGS * self.curve.noise) {
+        if distance.bound > FIT_ROUNDINGS * self.curve.noise || distance.bound.is_nan() {
             return false;
         }
         let next = Piecewise { arc, smooth: stretch.from.kind.is_smooth(), exact: true };
@@ -225,7 +225,7 @@ impl Piecewise {
             bulge: if (bulge.abs() - 1.0).abs() <= 8.0 * f64::EPSILON { bulge.signum() } else { bulge },
         };
         let chord = (whole.end - whole.start).length();
-        if !(whole.bulge.abs() <= 1.0) || b * c < 0.0 || chord <= noise {
+        if whole.bulge.abs() > 1.0 || whole.bulge.is_nan() || b * c < 0.0 || chord <= noise {
             return false;
         }
         let off = whole.distance(next.start);

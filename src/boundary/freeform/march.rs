@@ -205,7 +205,7 @@ impl<'a, 'b> Goal<'a, 'b> {
                 return good;
             }
             length = bracket.next(1.0 - 0.5 * WINDOW);
-            if !(length > self.track.noise()) || !length.is_finite() {
+            if length <= self.track.noise() || !length.is_finite() {
                 return good;
             }
         }
@@ -256,7 +256,7 @@ impl<'a, 'b> Goal<'a, 'b> {
             let u = self.track.beyond_distance(&nodes[k + 1], evened[k], nodes[0].u);
             nodes[k] = self.node(u, evened[k]).0;
         }
-        if count % 2 == 0 {
+        if count.is_multiple_of(2) {
             let u = self.middle(&nodes[half], &nodes[half + 2]);
             nodes[half + 1] = self.node(u, 0.5 * (evened[half] + evened[half + 1])).0;
         }
@@ -309,7 +309,7 @@ pub(super) fn centered(track: &Track, u: f64, room: [f64; 2], most: f64, toleran
     let mut good: Option<Centered> = None;
     let mut bracket = Bracket::default();
     for _ in 0..MAX_CORRECTIONS {
-        if !(length > track.noise()) {
+        if length <= track.noise() || !length.is_finite() {
             break;
         }
         let nodes = room.map(|limit| goal.node(track.beyond_distance(&apex, length, limit), 2.0 * length).0);
