@@ -96,16 +96,17 @@ impl Frame {
     }
 
     /// Distance between the arc and a part of a piece, whose ends are on its normals or inside.
-    pub fn measure(&self, part: &Piece) -> Distance {
-        let mut local = *part;
+    pub fn measure(&self, mut local: Piece) -> Distance {
         local.map(|p| self.enter(p));
         let back = self.turning_back(&local, MAX_HALVINGS);
         if back.is_infinite() {
             return Distance::UNKNOWN;
         }
-        let power = Power::along(&local, self);
-        let mut range = Distance { bound: 0.0, found: power.ends() };
-        power.bound(MAX_DIVISIONS, &mut range);
+        // Cubics are by far the most; their forms are short.
+        let range = match local.degree() {
+            ..=3 => Power::<7>::along(&local, self).range(),
+            _ => Power::<LEN>::along(&local, self).range(),
+        };
         let found = self.distance(range.found.min(range.bound));
         Distance { bound: self.distance(range.bound) + back, found }
     }
@@ -157,24 +158,25 @@ impl Frame {
     }
 }
 
-/// The power along a piece as numerator and denominator in Bernstein form.
+/// The power along a piece as numerator and denominator in Bernstein form, with room for `N`
+/// coefficients.
 #[derive(Clone, Copy)]
-struct Power {
+struct Power<const N: usize> {
     degree: usize,
     rational: bool,
-    numerator: [f64; LEN],
-    denominator: [f64; LEN],
+    numerator: [f64; N],
+    denominator: [f64; N],
 }
 
-impl Power {
-    fn along(local: &Piece, frame: &Frame) -> Power {
+impl<const N: usize> Power<N> {
+    fn along(local: &Piece, frame: &Frame) -> Power<N> {
         let d = local.degree();
         let (points, weights) = (local.points(), local.weights());
         let mut power = Power {
             degree: 2 * d,
             rational: local.is_rational(),
-            numerator: [0.0; LEN],
-            denominator: [0.0; LEN],
+            numerator: [0.0; N],
+            denominator: [0.0; N],
         };
         let (quarter, half_cos) = (frame.half * frame.half, 0.5 * frame.cos);
         for i in 0..=d {
@@ -206,9 +208,16 @@ impl Power {
         }
     }
 
-    /// Widens a range by bound and found values of this part.
-    fn bound(mut self, divisions: u32, range: &mut Distance) {
+    /// Bound and largest value found of the absolute power.
+    fn range(self) -> Distance {
+        let mut range = Distance { bound: 0.0, found: self.ends() };
         let largest = self.largest();
+        self.bound(largest, MAX_DIVISIONS, &mut range);
+        range
+    }
+
+    /// Widens a range by this part, whose largest ratio of coefficients is known.
+    fn bound(mut self, largest: f64, divisions: u32, range: &mut Distance) {
         if largest <= range.bound {
             return;
         }
@@ -219,9 +228,14 @@ impl Power {
         let before = self.divide();
         range.found = range.found.max(before.end());
         // The larger part first: then the other is often settled at once.
-        let (first, second) = if before.largest() > self.largest() { (before, self) } else { (self, before) };
-        first.bound(divisions - 1, range);
-        second.bound(divisions - 1, range);
+        let (m, n) = (before.largest(), self.largest());
+        if m > n {
+            before.bound(m, divisions - 1, range);
+            self.bound(n, divisions - 1, range);
+        } else {
+            self.bound(n, divisions - 1, range);
+            before.bound(m, divisions - 1, range);
+        }
     }
 
     fn ratio(&self, i: usize) -> f64 {
@@ -234,7 +248,7 @@ impl Power {
 
     /// Keeps the second part and answers the first: of two halves, or of parts that meet about where
     /// the power is stationary, as the bound is tight there at once.
-    fn divide(&mut self) -> Power {
+    fn divide(&mut self) -> Power<N> {
         let n = self.degree;
         let (first, last) = (self.ratio(1) - self.ratio(0), self.ratio(n) - self.ratio(n - 1));
         let t = first / (first - last);
@@ -248,7 +262,7 @@ impl Power {
     }
 }
 
-fn divide(c: &mut [f64; LEN], before: &mut [f64; LEN], n: usize, t: f64) {
+fn divide<const N: usize>(c: &mut [f64; N], before: &mut [f64; N], n: usize, t: f64) {
     let s = 1.0 - t;
     for (k, left) in before[..n].iter_mut().enumerate() {
         *left = c[0];
@@ -305,7 +319,7 @@ mod tests {
             let part = Piece::new(&points, &weights);
             for bulge in [0.0, 0.1, 0.3, -0.1, 1e-9] {
                 let arc = Arc { start: vector(0.0, 0.0), end: vector(1.0, 0.0), bulge };
-                let distance = Frame::of(&arc).measure(&part);
+                let distance = Frame::of(&arc).measure(part);
                 let sampled = sampled(&part, &arc);
                 assert!(distance.bound >= sampled - 1e-9, "{bulge}: {distance:?}, sampled {sampled}");
                 assert!(distance.bound <= 1.1 * sampled, "{bulge}: {distance:?}, sampled {sampled}");
@@ -317,7 +331,7 @@ mod tests {
     fn a_part_that_turns_back_has_a_bound_that_says_so() {
         let points = [vector(0.0, 0.0), vector(3.0, 0.1), vector(-2.0, 0.1), vector(1.0, 0.0)];
         let arc = Arc { start: vector(0.0, 0.0), end: vector(1.0, 0.0), bulge: -0.05 };
-        assert!(Frame::of(&arc).measure(&Piece::new(&points, &[1.0; 4])).bound > 0.3);
+        assert!(Frame::of(&arc).measure(Piece::new(&points, &[1.0; 4])).bound > 0.3);
     }
 
     #[test]
@@ -326,6 +340,6 @@ mod tests {
         let quarter = Piece::new(&[vector(1.0, 0.0), vector(1.0, 1.0), vector(0.0, 1.0)], &[1.0, half, 1.0]);
         let arc =
             Arc { start: vector(1.0, 0.0), end: vector(0.0, 1.0), bulge: (std::f64::consts::PI / 8.0).tan() };
-        assert!(Frame::of(&arc).measure(&quarter).bound < 1e-15);
+        assert!(Frame::of(&arc).measure(quarter).bound < 1e-15);
     }
 }

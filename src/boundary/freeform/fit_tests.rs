@@ -16,11 +16,6 @@ fn an_ellipse_is_within_its_bound() {
             assert!(fit.bound <= tolerance && fit.path.closed);
             let far = (0..2000).map(|i| fit.path.distance(e.at(f64::from(i) * 0.003_141_6)));
             let far = far.fold(0.0, f64::max);
-            println!(
-                "{scheme:?} {tolerance:e}: {} arcs, bound {:e}, sampled {far:e}",
-                fit.path.len(),
-                fit.bound
-            );
             assert!(far <= fit.bound);
         }
     }

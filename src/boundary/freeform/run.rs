@@ -20,6 +20,9 @@ use std::ops::Range;
 /// Rounds of putting nodes and choosing schemes; cuts that are still wrong then stay so.
 const MAX_ROUNDS: usize = 12;
 
+/// With fewer biarcs for each apex than this it is worth a try to lay them around the apices first.
+const FEW: usize = 12;
+
 /// Schemes for a part of a run, each more careful with curvatures than the one before.
 const CAREFUL: [Scheme; 4] = [Scheme::Tilted, Scheme::Plain, Scheme::Osculating, Scheme::Bisection];
 
@@ -37,19 +40,15 @@ pub(super) fn fit_run(
             .try_for_each(|s| fitter.fit(track, ends(track, s), (tolerance, scheme), out));
     }
     let work = &mut Work { fitter, track, tolerance, stretches };
-    let apices = stretches.iter().any(|s| s.from.kind == CutKind::Apex);
-    let mut plans = vec![At::None];
-    if scheme == Scheme::Fewest && apices && stretches.len() > 1 {
-        plans.push(At::Center);
-    }
-    let mut best: Option<Vec<Cell>> = None;
-    for at in plans {
-        let cells = laid_by(work, at)?;
-        if best.as_ref().is_none_or(|b| cells.len() < b.len()) {
-            best = Some(cells);
+    let mut cells = laid_by(work, At::None)?;
+    let apices = stretches[1..].iter().filter(|s| s.from.kind == CutKind::Apex).count();
+    if scheme == Scheme::Fewest && cells.len() < FEW * apices {
+        let other = laid_by(work, At::Center)?;
+        if other.len() < cells.len() {
+            cells = other;
         }
     }
-    out.extend(best.into_iter().flatten());
+    out.append(&mut cells);
     Some(())
 }
 

@@ -166,7 +166,7 @@ impl<'a> Track<'a> {
             let (a, b) = ((from - whole).max(0.0), (to - whole).min(1.0));
             if a < b {
                 let part = self.piece(whole as usize).part(a, b);
-                let found = if self.sampled { frame.sample(&part) } else { frame.measure(&part) };
+                let found = if self.sampled { frame.sample(&part) } else { frame.measure(part) };
                 distance = distance.max(found);
                 if distance.bound.is_infinite() {
                     break;
