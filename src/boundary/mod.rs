@@ -31,6 +31,7 @@ mod duplicate;
 mod ends;
 mod faces;
 mod fan;
+pub mod freeform;
 mod gather;
 mod grain;
 mod index;

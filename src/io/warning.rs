@@ -63,6 +63,19 @@ pub enum Warning {
         /// A place of the first one, where one is known.
         at: Option<Point>,
     },
+    /// Ellipses and splines that no arcs were found for.
+    NotFitted {
+        /// Kind of entity.
+        entity: String,
+        /// Handle of the first one, where it has one.
+        handle: Option<u64>,
+        /// Why not.
+        reason: String,
+        /// How many have the same fault.
+        count: usize,
+        /// A place of the first one, where one is known.
+        at: Option<Point>,
+    },
     /// Entities of which something does not count.
     Simplified {
         /// Kind of entity.
@@ -173,6 +186,7 @@ impl Warning {
         match self {
             Warning::NotRead { .. } => "not-read",
             Warning::EntitySkipped { .. } => "entity-skipped",
+            Warning::NotFitted { .. } => "not-fitted",
             Warning::Simplified { .. } => "simplified",
             Warning::Mended { .. } => "mended",
             Warning::LayerSkipped { .. } => "layer-skipped",
@@ -193,7 +207,9 @@ impl Warning {
     /// Where in the drawing, if it has one place.
     pub fn at(&self) -> Option<Point> {
         match self {
-            Warning::EntitySkipped { at, .. } | Warning::Simplified { at, .. } => *at,
+            Warning::EntitySkipped { at, .. }
+            | Warning::NotFitted { at, .. }
+            | Warning::Simplified { at, .. } => *at,
             Warning::Defect(defect) => Some(defect.at()),
             Warning::OutlineOfPart { at }
             | Warning::ArcsDropped { at, .. }
@@ -207,6 +223,7 @@ impl Warning {
     pub(super) fn move_by(&mut self, by: crate::geom::Vector) {
         match self {
             Warning::EntitySkipped { at: Some(at), .. }
+            | Warning::NotFitted { at: Some(at), .. }
             | Warning::Simplified { at: Some(at), .. }
             | Warning::ImplausibleSize { at, .. } => *at += by,
             _ => {}
@@ -224,6 +241,9 @@ impl Warning {
             }
             Warning::NotRead { .. } => "nothing to do, if it is no part of an outline".into(),
             Warning::EntitySkipped { .. } => "repair or delete it in the drawing".into(),
+            Warning::NotFitted { .. } => {
+                "draw it anew, or convert it to a polyline in the drawing program".into()
+            }
             Warning::Simplified { .. } => {
                 "nothing to do, if the part is drawn as it is seen from above".into()
             }
@@ -263,6 +283,10 @@ impl fmt::Display for Warning {
                 write!(f, "{entity}: {count} on layer `{layer}` not read")
             }
             Warning::NotRead { entity, count, .. } => write!(f, "{entity}: {count} skipped, no outline"),
+            Warning::NotFitted { entity, handle, reason, count, .. } => {
+                named(f, entity, *handle, *count)?;
+                write!(f, " skipped: {reason}")
+            }
             Warning::EntitySkipped { entity, handle, place, reason, count, .. } => {
                 write!(
                     f,

@@ -44,6 +44,7 @@ impl Plan {
         progress.stage("reading");
         let options = args.read_options()?;
         let drawing = timed(&mut timings.read, || dxf::read(&args.drawing, &options))?;
+        timings.take_fit(drawing.fitted.time);
         notices.extend(drawing.warnings.iter().map(Notice::from));
         let job = args.job(drawing.units)?;
         let tolerance = args.tolerance(drawing.units);

@@ -6,7 +6,7 @@ use crate::args::{
 use crate::failure::Failure;
 use crate::length::{Length, Step};
 use crate::notice::short;
-use medial::io::dxf::{Origin, ReadOptions};
+use medial::io::dxf::{FitTolerance, Origin, ReadOptions};
 use medial::io::gcode::{ArcWords, Coolant, Setup};
 use medial::toolpath::{Direction, Entry, Job, Start, Strategy};
 use medial::{Tolerance, Units};
@@ -40,6 +40,7 @@ impl Args {
                 OriginArg::Min => Origin::Min,
                 OriginArg::Center => Origin::Center,
             },
+            fit: FitTolerance { mm: self.tolerance(Units::Mm).fit, inch: self.tolerance(Units::Inch).fit },
         })
     }
 

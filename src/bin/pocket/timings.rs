@@ -7,8 +7,8 @@ use std::time::Instant;
 #[derive(Clone, Copy, Debug, Default, Serialize)]
 pub struct Timings {
     pub read: f64,
-    pub chain: f64,
     pub fit: f64,
+    pub chain: f64,
     pub axis: f64,
     pub offsets: f64,
     pub path: f64,
@@ -28,12 +28,18 @@ pub fn timed<T>(milliseconds: &mut f64, stage: impl FnOnce() -> T) -> T {
 }
 
 impl Timings {
+    /// Notes apart what reading took to fit curves.
+    pub fn take_fit(&mut self, fit: std::time::Duration) {
+        self.fit = fit.as_secs_f64() * 1e3;
+        self.read -= self.fit;
+    }
+
     /// As lines of the text report.
     pub fn text(&self) -> String {
         let stages = [
             ("read", self.read),
-            ("chain", self.chain),
             ("fit", self.fit),
+            ("chain", self.chain),
             ("axis", self.axis),
             ("offsets", self.offsets),
             ("path", self.path),

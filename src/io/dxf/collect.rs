@@ -170,9 +170,6 @@ impl<'a> Collection<'a> {
                 self.curves.push(Curve { path, source });
             }
             Shape::Free(shape) => {
-                let stretched = matches!(&shape, FreeShape::Ellipse(_)) && &*source.kind != "ELLIPSE";
-                let suffix = if stretched { ", stretched" } else { "" };
-                self.skipped.form(&format!("{}{suffix}", source.kind), &source.layer);
                 self.vertices += match &shape {
                     FreeShape::Ellipse(_) => 2,
                     FreeShape::Spline(spline) => (spline.control.len() + spline.fit.len()) as u64,

@@ -6,6 +6,7 @@ use crate::geom::{Bounds, Point, Vector, point};
 use crate::io::{DrawingUnit, Warning};
 use crate::tolerance::Units;
 use serde::Serialize;
+use std::time::Duration;
 
 /// The curves of a drawing.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -16,13 +17,39 @@ pub struct Drawing {
     pub units: Units,
     /// The curves of segments and arcs in the order of the file; those of blocks come last.
     pub curves: Vec<Curve>,
-    /// Ellipses and splines, in the same order.
+    /// Ellipses and splines that could not be fitted, as they are drawn; a warning says why. Those
+    /// that could are arcs and segments at the end of [`curves`](Drawing::curves).
     pub free: Vec<FreeCurve>,
+    /// What became of the others.
+    pub fitted: Fitted,
     /// The place of the drawing that the origin was moved to, and that all places are told from;
     /// `(0, 0)` unless [`ReadOptions::origin`] asks for another.
     pub origin: Point,
     /// What was left out, assumed or mended.
     pub warnings: Vec<Warning>,
+}
+
+/// How ellipses and splines became arcs and segments.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Fitted {
+    /// How many curves were fitted.
+    pub curves: usize,
+    /// How many arcs and segments they became.
+    pub elements: usize,
+    /// No place of any is farther from its curve than this, nor the other way, in job units.
+    pub bound: f64,
+    /// How long that took.
+    #[serde(skip)]
+    pub time: Duration,
+}
+
+/// The largest distance between a drawn curve and its arcs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FitTolerance {
+    /// In millimeters, for a job in millimeters.
+    pub mm: f64,
+    /// In inches, for a job in inches.
+    pub inch: f64,
 }
 
 /// What of a drawing to read, and how.
@@ -47,6 +74,8 @@ pub struct ReadOptions {
     pub hatch: bool,
     /// Where the origin of the job lies.
     pub origin: Origin,
+    /// How near to ellipses and splines their arcs must be.
+    pub fit: FitTolerance,
 }
 
 impl Default for ReadOptions {
@@ -61,6 +90,7 @@ impl Default for ReadOptions {
             hidden: false,
             hatch: false,
             origin: Origin::Dxf,
+            fit: FitTolerance { mm: Units::Mm.tolerance().fit, inch: Units::Inch.tolerance().fit },
         }
     }
 }

@@ -125,8 +125,9 @@ fn finish(scan: Scan, ended: bool, name: &str, options: &ReadOptions) -> Result<
     warnings.extend(mends.warnings());
     warnings.extend(collection.skipped.warnings());
     warnings.extend(collection.selection.warnings(&tables.names));
-    let (curves, free) = (collection.curves, collection.free);
-    let mut drawing = Drawing { name: name.to_owned(), units, curves, free, warnings, ..Drawing::default() };
+    let mut drawing =
+        Drawing { name: name.to_owned(), units, curves: collection.curves, warnings, ..Drawing::default() };
+    drawing.fit(collection.free, options.fit);
     drawing.warnings.extend(implausible(&drawing, &unit));
     drawing.move_origin(options.origin);
     Ok(drawing)

@@ -1,0 +1,144 @@
+//! Biarcs along a run of the curve, by a scheme of choice.
+//!
+//! **Needs** a run without corners inside. **Guarantees** biarcs within the tolerance of the run, each
+//! proven. **Does not** look at the order of curvatures; see [`super::run`].
+
+use super::biarc::{Arc, Joint, Node, biarc};
+use super::bound::Distance;
+use super::march::March;
+use super::track::Track;
+
+/// How nodes and joints are chosen.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Scheme {
+    /// Whichever of the others needs fewer arcs.
+    #[default]
+    Fewest,
+    /// Tangents turned a little, between nodes of equal error.
+    Tilted,
+    /// Tangents of the curve and joints in the middle, between nodes of equal error.
+    Plain,
+    /// Osculating arcs between nodes of equal error.
+    Osculating,
+    /// Osculating arcs and halving (S0, Algorithm 1 and section 2.3).
+    Bisection,
+    /// The same with errors estimated by samples and not proven, as published (S0, Algorithm 2). For
+    /// comparison only: what it calls a bound is the largest error found.
+    Published,
+}
+
+/// Largest number of biarcs in one run.
+pub(super) const MAX_BIARCS: usize = 1 << 20;
+
+/// One biarc.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cell {
+    /// Its arcs.
+    pub arcs: [Arc; 2],
+    /// Parameter of the curve at its start.
+    pub from: f64,
+    /// Parameter beyond its joint.
+    pub joint: f64,
+    /// Parameter at its end.
+    pub to: f64,
+    /// How far the arcs are from the curve.
+    pub distance: Distance,
+    /// Whether it is one segment for a part with turns too small for arcs. Its second arc is empty.
+    pub sharp: bool,
+}
+
+/// Fits runs; keeps its buffers from one to the next.
+#[derive(Debug, Default)]
+pub(super) struct Fitter {
+    march: March,
+    /// Ends of the parts that wait to be halved.
+    waiting: Vec<Node>,
+}
+
+impl Fitter {
+    /// Appends biarcs from one node to another; `None` when the limit on effort is reached.
+    pub fn fit(
+        &mut self,
+        track: &Track,
+        ends: [Node; 2],
+        (tolerance, scheme): (f64, Scheme),
+        out: &mut Vec<Cell>,
+    ) -> Option<()> {
+        let joint = match scheme {
+            Scheme::Tilted | Scheme::Fewest | Scheme::Plain => Joint::Middle,
+            Scheme::Osculating | Scheme::Bisection | Scheme::Published => Joint::Osculating,
+        };
+        let halves = matches!(scheme, Scheme::Bisection | Scheme::Published);
+        if !halves && self.march.run(track, ends, (tolerance, scheme), out).is_some() {
+            return Some(());
+        }
+        self.halve(track, ends, (tolerance, joint), out)
+    }
+
+    /// Halves a run until every biarc fits.
+    fn halve(
+        &mut self,
+        track: &Track,
+        [from, to]: [Node; 2],
+        (tolerance, joint): (f64, Joint),
+        out: &mut Vec<Cell>,
+    ) -> Option<()> {
+        let limit = out.len() + MAX_BIARCS;
+        self.waiting.clear();
+        self.waiting.push(to);
+        let mut a = from;
+        while let Some(&b) = self.waiting.last() {
+            let mut found = cell(track, &a, &b, joint);
+            if found.distance.bound > tolerance && joint == Joint::Osculating {
+                // At a curvature of zero and where it jumps there may be no osculating biarc.
+                let middle = cell(track, &a, &b, Joint::Middle);
+                if found.distance.bound.is_infinite() || middle.distance.bound <= tolerance {
+                    found = middle;
+                }
+            }
+            if found.distance.bound <= tolerance {
+                out.push(found);
+                self.waiting.pop();
+                a = b;
+                continue;
+            }
+            let reach = track.reach(a.place, a.u, b.u);
+            if reach <= SMALL * tolerance {
+                out.push(blunt(&a, &b, reach));
+                self.waiting.pop();
+                a = b;
+                continue;
+            }
+            let u = 0.5 * (a.u + b.u);
+            if u <= a.u || u >= b.u || out.len() + self.waiting.len() > limit {
+                return None;
+            }
+            self.waiting.push(track.node(u));
+        }
+        Some(())
+    }
+}
+
+/// A part of the curve within this part of the tolerance is as good as a segment.
+const SMALL: f64 = 0.25;
+
+/// A segment for a part of the curve within `reach` of its start.
+fn blunt(a: &Node, b: &Node, reach: f64) -> Cell {
+    let arcs = [(a.place, b.place), (b.place, b.place)].map(|(start, end)| Arc { start, end, bulge: 0.0 });
+    let distance = Distance { bound: 2.0 * reach, found: 0.0 };
+    Cell { arcs, from: a.u, joint: b.u, to: b.u, distance, sharp: true }
+}
+
+/// The biarc between two nodes with its distance from the curve.
+pub(super) fn cell(track: &Track, a: &Node, b: &Node, joint: Joint) -> Cell {
+    let none = Arc { start: a.place, end: b.place, bulge: 0.0 };
+    let (from, to) = (a.u, b.u);
+    match biarc(a, b, joint, track.grid) {
+        Some(arcs) => {
+            let (distance, joint) = track.measure(&arcs, from, to);
+            Cell { arcs, from, joint, to, distance, sharp: false }
+        }
+        None => Cell { arcs: [none; 2], from, joint: to, to, distance: Distance::UNKNOWN, sharp: false },
+    }
+}

@@ -1,0 +1,264 @@
+//! Places, tangents and distances along a curve of many pieces.
+
+use super::biarc::{Arc, Grid, Node};
+use super::bound::{Distance, Frame};
+use super::cuts::{first_leg, last_leg};
+use super::piece::Piece;
+use super::pieces::Pieces;
+use crate::geom::Vector;
+
+/// A curve with the grid that its nodes are stored on.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Track<'a> {
+    pieces: &'a [Piece],
+    /// Where nodes are stored.
+    pub grid: Grid,
+    noise: f64,
+    extent: f64,
+    /// Whether distances are estimated by samples.
+    sampled: bool,
+}
+
+/// Which side of a parameter counts where pieces meet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Side {
+    /// What ends there.
+    Before,
+    /// What begins there.
+    After,
+}
+
+/// Steps of the search for the place beyond a joint; Newton's method takes three or four, bisection
+/// takes over when it fails.
+const MAX_STEPS: usize = 80;
+
+impl<'a> Track<'a> {
+    /// The track of some pieces.
+    pub fn new(curve: &'a Pieces) -> Track<'a> {
+        Track {
+            pieces: &curve.pieces,
+            grid: Grid { origin: curve.origin },
+            noise: curve.noise,
+            extent: curve.extent,
+            sampled: false,
+        }
+    }
+
+    /// The same with distances estimated by samples, not proven.
+    pub fn sampled(self) -> Track<'a> {
+        Track { sampled: true, ..self }
+    }
+
+    /// Round-off of a place.
+    pub fn noise(&self) -> f64 {
+        self.noise
+    }
+
+    /// The piece that holds a parameter, and the parameter in it.
+    pub fn locate(&self, u: f64, side: Side) -> (&'a Piece, f64) {
+        let whole = if side == Side::Before { u.ceil() - 1.0 } else { u.floor() };
+        let whole = whole.max(0.0);
+        (&self.pieces[whole as usize % self.pieces.len()], u - whole)
+    }
+
+    /// Piece `i`, counted on around a closed curve.
+    pub fn piece(&self, i: usize) -> &'a Piece {
+        &self.pieces[i % self.pieces.len()]
+    }
+
+    /// The node on the curve at a cut, with the one-sided tangent.
+    pub fn cut_node(&self, u: f64, side: Side) -> Node {
+        let (piece, t) = self.locate(u, side);
+        let mut place = piece.at(t);
+        if t == 0.0 {
+            place = piece.start();
+        } else if t == 1.0 {
+            place = piece.end();
+        }
+        let leg = match side {
+            Side::Before => last_leg(&piece.part(0.0, t), self.noise),
+            Side::After => first_leg(&piece.part(t, 1.0), self.noise),
+        };
+        let jet = piece.jet(t);
+        let tangent = leg.unwrap_or(jet.d1).unit();
+        Node { u, place: self.grid.snap(place), tangent, curvature: jet.curvature() }
+    }
+
+    /// The place at a parameter.
+    pub fn place(&self, u: f64) -> Vector {
+        let (piece, t) = self.locate(u, Side::Before);
+        piece.at(t)
+    }
+
+    /// The node on the curve at a parameter that is no cut.
+    pub fn node(&self, u: f64) -> Node {
+        self.node_and_slope(u).0
+    }
+
+    /// The node on the curve at a parameter that is no cut, and the derivative of the curvature.
+    pub fn node_and_slope(&self, u: f64) -> (Node, f64) {
+        let (piece, t) = self.locate(u, Side::Before);
+        let jet = piece.jet(t);
+        let node =
+            Node { u, place: self.grid.snap(jet.q), tangent: jet.d1.unit(), curvature: jet.curvature() };
+        (node, jet.curvature_slope())
+    }
+
+    /// A distance from a place that the curve between two parameters does not exceed.
+    pub fn reach(&self, place: Vector, from: f64, to: f64) -> f64 {
+        let mut reach = 0.0f64;
+        let mut whole = from.floor();
+        while whole < to {
+            let (a, b) = ((from - whole).max(0.0), (to - whole).min(1.0));
+            if a < b {
+                let part = self.piece(whole as usize).part(a, b);
+                reach = part.points().iter().fold(reach, |r, &p| r.max((p - place).length()));
+            }
+            whole += 1.0;
+        }
+        reach
+    }
+
+    /// Length of the diagonal of the box around all control points.
+    pub fn extent(&self) -> f64 {
+        self.extent
+    }
+
+    /// The first parameter from a node towards `limit` at a distance; `limit` if there is none.
+    pub fn beyond_distance(&self, from: &Node, distance: f64, limit: f64) -> f64 {
+        let forward = limit > from.u;
+        let sign = if forward { 1.0 } else { -1.0 };
+        let mut u = from.u;
+        loop {
+            let side = if forward { Side::After } else { Side::Before };
+            let (piece, t) = self.locate(u, side);
+            let whole = u - t;
+            let last = if forward { (limit - whole).min(1.0) } else { (limit - whole).max(0.0) };
+            if let Some(t) = crossing(piece, (t, last), from.place, distance) {
+                return whole + t;
+            }
+            u = whole + last;
+            if (limit - u) * sign <= 0.0 {
+                return limit;
+            }
+        }
+    }
+
+    /// Distance between arcs and the parts of the curve they stand for, and the parameter between.
+    pub fn measure(&self, arcs: &[Arc; 2], from: f64, to: f64) -> (Distance, f64) {
+        let joint = self.beyond(arcs[0].end, arcs[0].end_tangent(), from, to);
+        let mut distance = self.measure_arc(&arcs[0], from, joint);
+        if distance.bound.is_finite() {
+            distance = distance.max(self.measure_arc(&arcs[1], joint, to));
+        }
+        (distance, joint)
+    }
+
+    /// Distance between an arc and the curve between two parameters.
+    pub fn measure_arc(&self, arc: &Arc, from: f64, to: f64) -> Distance {
+        if arc.start == arc.end {
+            return Distance::UNKNOWN;
+        }
+        let frame = Frame::of(arc);
+        let mut distance = Distance::ZERO;
+        let mut whole = from.floor();
+        while whole < to {
+            let (a, b) = ((from - whole).max(0.0), (to - whole).min(1.0));
+            if a < b {
+                let part = self.piece(whole as usize).part(a, b);
+                let found = if self.sampled { frame.sample(&part) } else { frame.measure(part) };
+                distance = distance.max(found);
+                if distance.bound.is_infinite() {
+                    break;
+                }
+            }
+            whole += 1.0;
+        }
+        distance
+    }
+
+    /// The parameter between two others where the curve crosses the normal at a joint.
+    fn beyond(&self, joint: Vector, tangent: Vector, from: f64, to: f64) -> f64 {
+        let ahead = |u: f64| {
+            let (piece, t) = self.locate(u, Side::Before);
+            (piece.at(t) - joint).dot(tangent)
+        };
+        let mut whole = from.floor();
+        while whole + 1.0 < to && ahead(whole + 1.0) < 0.0 {
+            whole += 1.0;
+        }
+        let piece = self.piece(whole as usize);
+        let (mut low, mut high) = ((from - whole).max(0.0), (to - whole).min(1.0));
+        let mut t = 0.5 * (low + high);
+        for _ in 0..MAX_STEPS {
+            let (q, d1) = piece.motion(t);
+            let value = (q - joint).dot(tangent);
+            if value > 0.0 {
+                high = t;
+            } else {
+                low = t;
+            }
+            let next = t - value / d1.dot(tangent);
+            let next = if next > low && next < high { next } else { 0.5 * (low + high) };
+            if (next - t).abs() * d1.length() <= self.noise || next == t {
+                return whole + next;
+            }
+            t = next;
+        }
+        whole + t
+    }
+}
+
+/// Divisions of a piece, at least, in the search for a distance.
+const LEAST_DIVISIONS: f64 = 8.0;
+
+/// Where a piece, run from one parameter to another, is first at a distance from a place.
+fn crossing(piece: &Piece, (from, to): (f64, f64), place: Vector, distance: f64) -> Option<f64> {
+    let sign = if to > from { 1.0 } else { -1.0 };
+    let (q, d1) = piece.motion(from);
+    let missing = distance - (q - place).length();
+    if missing <= 0.0 {
+        return Some(from);
+    }
+    let mut stride = (missing / d1.length()).min(1.0 / LEAST_DIVISIONS);
+    let (mut near, mut far) = (from, from);
+    loop {
+        if far == to {
+            return None;
+        }
+        far = if (to - far) * sign <= stride { to } else { far + sign * stride };
+        if (piece.at(far) - place).length() >= distance {
+            break;
+        }
+        near = far;
+        stride = (2.0 * stride).min(1.0 / LEAST_DIVISIONS);
+    }
+    Some(refined(piece, near, far, place, distance))
+}
+
+/// Where a piece is at a distance from a place: nearer at `near`, not at `far`.
+fn refined(piece: &Piece, mut near: f64, mut far: f64, place: Vector, distance: f64) -> f64 {
+    let mut t = far;
+    for _ in 0..MAX_STEPS {
+        let (q, d1) = piece.motion(t);
+        let w = q - place;
+        let length = w.length();
+        if length >= distance {
+            far = t;
+        } else {
+            near = t;
+        }
+        let step = (distance - length) * length / w.dot(d1);
+        let next = t + step;
+        let inside = (next - near) * (next - far) <= 0.0;
+        let next = if inside { next } else { 0.5 * (near + far) };
+        if (next - t).abs() <= f64::EPSILON || step.abs() <= CLOSE_ENOUGH * (far - near).abs() {
+            return next;
+        }
+        t = next;
+    }
+    t
+}
+
+/// A step of Newton's method so much shorter than the bracket squares to less than round-off.
+const CLOSE_ENOUGH: f64 = 1e-9;
