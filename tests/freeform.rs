@@ -412,3 +412,23 @@ proptest! {
         prop_assert!(fit.bound <= 1e-3 && farthest(&places, &fit.path) <= 1e-3);
     }
 }
+
+#[test]
+fn the_axis_has_a_leaf_for_each_sharpest_place_and_no_other() {
+    // Leaves of the axis are at convex maxima of the curvature: two of an ellipse, and those of a star.
+    let ellipse = EllipseArc::new(point(1.0, 2.0), vector(20.0, 10.0), 0.4, 0.0, 0.0).unwrap();
+    for offset in [0.0, 1e5] {
+        let moved = |p: Point| point(p.x + offset, p.y);
+        for tolerance in [1e-1, 1e-3, 1e-5] {
+            for (path, leaves) in [
+                (ellipse.transformed(moved).to_arcs(tolerance).unwrap().path, 2),
+                (star(8, 1.0).transformed(moved).to_arcs(tolerance).unwrap().path, 4),
+            ] {
+                let pocket = medial::Pocket::from_loops(vec![path], medial::Tolerance::MM).unwrap();
+                let mat = pocket.medial_axis().unwrap();
+                let found = mat.vertices().iter().filter(|v| v.kind == medial::Kind::Leaf).count();
+                assert_eq!(found, leaves, "tolerance {tolerance:e}, moved by {offset}");
+            }
+        }
+    }
+}

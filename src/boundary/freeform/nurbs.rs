@@ -262,5 +262,9 @@ mod tests {
         let torn = vec![0.0, 0.0, 1.0, 1.0, 2.0, 2.0];
         let torn = Nurbs::new(1, torn, square(), vec![], false).unwrap();
         assert!(matches!(torn.pieces(), Err(CurveError::Jump { .. })));
+        // A piece of no extent does not hide a jump behind it.
+        let still = [square()[0], square()[0], square()[1], square()[2]].to_vec();
+        let torn = Nurbs::new(1, vec![0.0, 0.0, 1.0, 1.0, 2.0, 2.0], still, vec![], false).unwrap();
+        assert!(matches!(torn.pieces(), Err(CurveError::Jump { .. })));
     }
 }

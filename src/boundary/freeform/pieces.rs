@@ -2,7 +2,7 @@
 
 use super::error::CurveError;
 use super::piece::Piece;
-use crate::geom::{Bounds, Point};
+use crate::geom::{Bounds, Point, Vector};
 
 /// Largest absolute coordinate, in job units: that of all drawings.
 const COORDINATE_LIMIT: f64 = 1e10;
@@ -23,6 +23,8 @@ pub(super) struct Pieces {
     pub extent: f64,
     /// The pieces; each begins where the one before ends, to the last bit.
     pub pieces: Vec<Piece>,
+    /// Where the next piece must begin, pieces of no extent included.
+    reached: Option<Vector>,
     /// Whether the last piece ends where the first begins.
     pub closed: bool,
 }
@@ -37,6 +39,7 @@ impl Pieces {
     pub fn around(bounds: &Bounds) -> Pieces {
         let noise = 0.5 * f64::EPSILON * POINT_ROUNDINGS * bounds.magnitude();
         Pieces {
+            reached: None,
             origin: bounds.center(),
             noise,
             extent: bounds.diagonal(),
@@ -52,7 +55,8 @@ impl Pieces {
     ///
     /// [`CurveError::Jump`] when it begins elsewhere.
     pub fn push(&mut self, piece: Piece) -> Result<(), CurveError> {
-        let start = self.pieces.last().map_or(piece.start(), Piece::end);
+        let start = self.reached.unwrap_or(piece.start());
+        self.reached = Some(start);
         let gap = (piece.start() - start).length();
         if gap > 2.0 * self.noise {
             return Err(CurveError::Jump { at: self.origin + start, gap });
@@ -60,6 +64,7 @@ impl Pieces {
         if piece.points().iter().all(|&p| (p - start).length() <= 2.0 * self.noise) {
             return Ok(());
         }
+        self.reached = Some(piece.end());
         self.pieces.push(piece.starting_at(start));
         Ok(())
     }
