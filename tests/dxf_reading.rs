@@ -370,20 +370,39 @@ fn circles_in_stretched_blocks_are_ellipses() {
         "0 INSERT; 2 C; 10 10; 20 0; 41 3; 42 0.5",
     );
     assert_eq!(ends(&d.curves[0].path), [(10.0, 0.0), (13.0, 0.5)]);
-    let FreeShape::Ellipse(e) = &d.free[0].shape else { panic!("{d:?}") };
-    assert_eq!((e.center, e.major, e.ratio), (point(10.0, 0.0), medial::vector(6.0, 0.0), 1.0 / 6.0));
-    assert_eq!(messages(&d), ["CIRCLE, stretched: 1 on layer `Cut` not read"]);
+    let (path, area) = (&d.curves[1].path, PI * 6.0 * 1.0);
+    assert!(path.closed && (path.area() - area).abs() < 0.001 * path.length(), "{d:?}");
+    assert!(d.free.is_empty() && d.fitted.curves == 1 && d.fitted.bound <= 0.001);
+    assert_eq!(messages(&d), [""; 0]);
 }
 
 #[test]
-fn ellipses_and_splines_come_as_they_are_drawn() {
+fn ellipses_and_splines_become_arcs_within_the_tolerance() {
     let d = read_entities(
         "0 ELLIPSE; 8 Rim; 10 1; 20 2; 11 4; 21 0; 40 0.5; 41 0; 42 1.5;
          0 SPLINE; 8 Rim; 70 8; 71 2; 40 0; 40 0; 40 0; 40 1; 40 1; 40 1; 10 0; 20 0; 10 2; 20 4; 10 4; 20 0",
     );
-    assert_eq!(messages(&d), ["ELLIPSE: 1 on layer `Rim` not read", "SPLINE: 1 on layer `Rim` not read"]);
-    let FreeShape::Spline(spline) = &d.free[1].shape else { panic!("{d:?}") };
-    assert_eq!((spline.degree, spline.control.len(), spline.closed), (2, 3, false));
+    assert_eq!(messages(&d), [""; 0]);
+    let off = |p: Point, i: usize| {
+        let path = &d.curves[i].path;
+        path.elements().map(|e| e.distance(p)).fold(f64::INFINITY, f64::min)
+    };
+    for t in (0..=30).map(|i| f64::from(i) / 30.0) {
+        let (sin, cos) = (1.5 * t).sin_cos();
+        let parabola = point(4.0 * t, 8.0 * t * (1.0 - t));
+        assert!(off(point(1.0 + 4.0 * cos, 2.0 + 2.0 * sin), 0) <= 0.001 && off(parabola, 1) <= 0.001);
+    }
+    assert!(d.fitted.bound <= 0.001 && d.fitted.elements < 100);
+}
+
+#[test]
+fn what_cannot_be_fitted_is_named_and_the_rest_goes_on() {
+    let d = read_entities(
+        "0 SPLINE; 5 2A; 70 8; 71 1; 40 0; 40 0; 40 1; 40 1; 40 2; 40 2; 10 0; 20 0; 10 2; 20 0; 10 2; 20 9; 10 4; 20 0;
+         0 CIRCLE; 10 0; 20 0; 40 1",
+    );
+    assert_eq!((d.curves.len(), d.free.len(), d.fitted.curves), (1, 1, 0));
+    assert_eq!(messages(&d), ["SPLINE 2A skipped: the spline jumps by 9.0000 at (2, 0)"]);
 }
 
 #[test]

@@ -284,18 +284,18 @@ impl fmt::Display for Warning {
             }
             Warning::NotRead { entity, count, .. } => write!(f, "{entity}: {count} skipped, no outline"),
             Warning::NotFitted { entity, handle, reason, count, .. } => {
-                named(f, entity, *handle, *count)?;
-                write!(f, " skipped: {reason}")
+                let named = Named { entity, handle: *handle, place: None, count: *count };
+                write!(f, "{named} skipped: {reason}")
             }
             Warning::EntitySkipped { entity, handle, place, reason, count, .. } => {
                 write!(
                     f,
                     "{} skipped: {reason}",
-                    Named { entity, handle: *handle, place: *place, count: *count }
+                    Named { entity, handle: *handle, place: Some(*place), count: *count }
                 )
             }
             Warning::Simplified { entity, handle, place, how, count, .. } => {
-                write!(f, "{}: {how}", Named { entity, handle: *handle, place: *place, count: *count })
+                write!(f, "{}: {how}", Named { entity, handle: *handle, place: Some(*place), count: *count })
             }
             Warning::Mended { what, count, place } => write!(f, "{what}: {count}, the first in {place}"),
             Warning::LayerSkipped { layer, state, count } => {
@@ -336,7 +336,7 @@ impl fmt::Display for Warning {
 struct Named<'a> {
     entity: &'a str,
     handle: Option<u64>,
-    place: Place,
+    place: Option<Place>,
     count: usize,
 }
 
@@ -346,7 +346,9 @@ impl fmt::Display for Named<'_> {
         if let Some(handle) = self.handle {
             write!(f, " {handle:X}")?;
         }
-        write!(f, " ({})", self.place)?;
+        if let Some(place) = self.place {
+            write!(f, " ({place})")?;
+        }
         if self.count > 1 { write!(f, " and {} more", self.count - 1) } else { Ok(()) }
     }
 }
