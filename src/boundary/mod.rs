@@ -37,6 +37,7 @@ mod index;
 mod intersect;
 mod junction;
 mod loose;
+mod nesting;
 mod pieces;
 mod pocket;
 mod ray;
