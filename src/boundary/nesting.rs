@@ -35,7 +35,8 @@ impl Pockets {
             let Some(hit) = rays.first(place, is_smaller) else { continue };
             let (other, is_island) = loops[hit.owner];
             // Seen from within the other pocket, the wall is a common one of the two.
-            let in_island = is_island || (hit.from_left && has_island_around(&pockets[other], &pockets[pocket]));
+            let in_island =
+                is_island || (hit.from_left && has_island_around(&pockets[other], &pockets[pocket]));
             parents[pocket] = if in_island { Some(other) } else { parents[other] };
         }
         parents

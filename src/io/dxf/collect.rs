@@ -143,23 +143,24 @@ impl<'a> Collection<'a> {
             return Fate::Broken;
         }
         let mut drawn = std::mem::take(&mut self.drawn);
-        let fate = match draw(record, Stage { placement: &context.placement, scale: tables.scale }, &mut drawn) {
-            Err(Skip::NotRead(form)) => {
-                self.skipped.form(form, layer);
-                Fate::NotRead
-            }
-            Err(Skip::Fault(reason)) => {
-                self.skipped.fault(kind, record, &reason, place());
-                Fate::Broken
-            }
-            Ok(()) => {
-                self.note(kind, record, &drawn, place);
-                let source = Source { kind: kind.clone(), handle: record.handle, layer: layer.clone() };
-                let is_free = drawn.shapes.iter().any(|shape| matches!(shape, Shape::Free(_)));
-                drawn.shapes.drain(..).for_each(|shape| self.keep(shape, &source));
-                if is_free { Fate::Free } else { Fate::Read }
-            }
-        };
+        let fate =
+            match draw(record, Stage { placement: &context.placement, scale: tables.scale }, &mut drawn) {
+                Err(Skip::NotRead(form)) => {
+                    self.skipped.form(form, layer);
+                    Fate::NotRead
+                }
+                Err(Skip::Fault(reason)) => {
+                    self.skipped.fault(kind, record, &reason, place());
+                    Fate::Broken
+                }
+                Ok(()) => {
+                    self.note(kind, record, &drawn, place);
+                    let source = Source { kind: kind.clone(), handle: record.handle, layer: layer.clone() };
+                    let is_free = drawn.shapes.iter().any(|shape| matches!(shape, Shape::Free(_)));
+                    drawn.shapes.drain(..).for_each(|shape| self.keep(shape, &source));
+                    if is_free { Fate::Free } else { Fate::Read }
+                }
+            };
         self.drawn = drawn;
         fate
     }

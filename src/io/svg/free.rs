@@ -40,7 +40,8 @@ fn along_spline(spline: &Spline) -> Vec<Point> {
         let (from, to) = (spline.knots[span], spline.knots[span + 1]);
         if from < to {
             let step = |i: usize| from + (to - from) * i as f64 / steps as f64;
-            places.extend((usize::from(!places.is_empty())..=steps).filter_map(|i| at(spline, span, step(i))));
+            places
+                .extend((usize::from(!places.is_empty())..=steps).filter_map(|i| at(spline, span, step(i))));
         }
     }
     places
@@ -102,7 +103,9 @@ mod tests {
         };
         let places = places(FreeShape::Ellipse(half));
         assert_eq!((places.len(), places[0]), (65, point(5.0, 1.0)));
-        assert!(places[64].distance(point(-3.0, 1.0)) < 1e-14 && places[32].distance(point(1.0, 3.0)) < 1e-14);
+        assert!(
+            places[64].distance(point(-3.0, 1.0)) < 1e-14 && places[32].distance(point(1.0, 3.0)) < 1e-14
+        );
     }
 
     #[test]

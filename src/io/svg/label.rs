@@ -91,7 +91,8 @@ pub(super) fn labels(marks: &[Mark], [width, height]: [f64; 2]) -> String {
                 && !taken.iter().any(|t| t.meets(area))
                 && !dots.iter().enumerate().any(|(j, dot)| j != i && dot.meets(area))
         };
-        let places = || RINGS.into_iter().flat_map(|ring| DIRECTIONS.map(|way| beside(group, size, ring, way)));
+        let places =
+            || RINGS.into_iter().flat_map(|ring| DIRECTIONS.map(|way| beside(group, size, ring, way)));
         // On a crowded page a label covers a mark rather than another label.
         let only_labels = |area: &Area| area.is_within(width, height) && !taken.iter().any(|t| t.meets(area));
         let area = places().find(is_free).or_else(|| places().find(only_labels));
@@ -184,7 +185,8 @@ fn explanation(group: &Group, marks: &[Mark]) -> String {
     texts.sort_unstable();
     texts.dedup();
     let more = texts.len().saturating_sub(MAX_TEXTS);
-    let mut lines: Vec<String> = texts.iter().take(MAX_TEXTS).map(|(n, text)| format!("{n}: {text}")).collect();
+    let mut lines: Vec<String> =
+        texts.iter().take(MAX_TEXTS).map(|(n, text)| format!("{n}: {text}")).collect();
     if more > 0 {
         lines.push(format!("and {more} more"));
     }
@@ -206,7 +208,12 @@ mod tests {
         };
         svg.split("<rect")
             .skip(1)
-            .map(|r| Area { x: value(r, "x"), y: value(r, "y"), width: value(r, "width"), height: value(r, "height") })
+            .map(|r| Area {
+                x: value(r, "x"),
+                y: value(r, "y"),
+                width: value(r, "width"),
+                height: value(r, "height"),
+            })
             .collect()
     }
 

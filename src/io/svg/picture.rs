@@ -116,7 +116,8 @@ impl<'a> Picture<'a> {
     fn bounds(&self) -> Bounds {
         let loops = self.pockets.iter().flat_map(|p| p.loops());
         let levels = self.levels.iter().flat_map(|l| l.loops.iter().chain(&l.ridges));
-        let splines = loops.chain(self.curves.iter().copied()).chain(self.unused.iter().copied()).chain(levels);
+        let splines =
+            loops.chain(self.curves.iter().copied()).chain(self.unused.iter().copied()).chain(levels);
         let shapes = splines.map(ArcSpline::bounds).fold(Bounds::EMPTY, Bounds::union);
         let axes = self.axes.iter().flat_map(|e| e.points).filter(|p| p.is_finite());
         let cuts = self.moves.iter().flat_map(|m| m.iter()).filter(|m| !matches!(m, Move::Rapid { .. }));
@@ -243,7 +244,11 @@ impl<'a> Picture<'a> {
         }
         let is_used = |look: &Look| legend.iter().any(|(l, _)| l.class == look.class);
         let more: Vec<Look> = [style::UNUSED, style::FREE].into_iter().filter(is_used).collect();
-        let _ = write!(svg, "<style>\n{}</style>\n", style::sheet(frame.pixel(), &more, !self.numbered.is_empty()));
+        let _ = write!(
+            svg,
+            "<style>\n{}</style>\n",
+            style::sheet(frame.pixel(), &more, !self.numbered.is_empty())
+        );
         let _ = writeln!(
             svg,
             "<rect class=\"stock\" x=\"-1\" y=\"{:.0}\" width=\"{:.0}\" height=\"{:.0}\"/>",
