@@ -138,6 +138,11 @@ impl Frame {
         (text, height)
     }
 
+    /// Width of a text, rather too wide.
+    pub fn width_of(text: &str) -> f64 {
+        1.2 * WIDTH_OF_LETTER * LETTER * text.chars().count() as f64
+    }
+
     /// Size of letters in pixels.
     pub fn letter(&self) -> f64 {
         LETTER

@@ -22,8 +22,14 @@ const HEIGHT: f64 = 21.0;
 /// Marks within this distance have one label, if that leaves few enough.
 const NEAR: f64 = 26.0;
 
-/// More labels than this on a page are hard to tell apart.
-const MAX_LABELS: usize = 120;
+/// A label has so much of the page for itself, in square pixels, so that its line is short.
+const ROOM: f64 = 9000.0;
+
+/// As many labels are on the smallest page.
+const MIN_LABELS: usize = 16;
+
+/// Height of the line of the title that lies on the page.
+const TITLE: f64 = 18.0;
 
 /// Runs of numbers on one label.
 const MAX_RUNS: usize = 3;
@@ -32,7 +38,7 @@ const MAX_RUNS: usize = 3;
 const MAX_TEXTS: usize = 12;
 
 /// Distances of a label from its mark that are tried.
-const RINGS: [f64; 6] = [20.0, 34.0, 52.0, 76.0, 104.0, 140.0];
+const RINGS: [f64; 5] = [20.0, 34.0, 52.0, 76.0, 104.0];
 
 /// Directions that are tried, the readiest first.
 const DIRECTIONS: [(f64, f64); 8] =
@@ -77,10 +83,11 @@ impl Area {
     }
 }
 
-/// All labels of a page of that size, as SVG.
-pub(super) fn labels(marks: &[Mark], [width, height]: [f64; 2]) -> String {
-    let groups = groups(marks);
-    let mut taken: Vec<Area> = Vec::new();
+/// All labels of a page of that size, as SVG; `title` is the width of what stands in its upper left
+/// corner.
+pub(super) fn labels(marks: &[Mark], [width, height]: [f64; 2], title: f64) -> String {
+    let groups = groups(marks, MIN_LABELS.max((width * height / ROOM) as usize));
+    let mut taken = vec![Area { x: 0.0, y: 0.0, width: title, height: TITLE }];
     let dots: Vec<Area> = groups.iter().map(|g| around(g.x, g.y, 12.0, 12.0)).collect();
     let (mut lines, mut tags) = (String::new(), String::new());
     for (i, group) in groups.iter().enumerate() {
@@ -127,11 +134,11 @@ fn beside(group: &Group, (width, height): (f64, f64), ring: f64, (dx, dy): (f64,
 }
 
 /// Marks in groups, in the order of their first marks.
-fn groups(marks: &[Mark]) -> Vec<Group> {
+fn groups(marks: &[Mark], max: usize) -> Vec<Group> {
     let mut near = NEAR;
     loop {
         let groups = groups_within(marks, near);
-        if groups.len() <= MAX_LABELS {
+        if groups.len() <= max {
             return groups;
         }
         near *= 1.5;
@@ -226,15 +233,15 @@ mod tests {
 
     #[test]
     fn marks_in_one_place_have_one_label() {
-        let svg = labels(&marks(&[(100.0, 100.0), (104.0, 99.0), (400.0, 100.0)]), [1000.0, 600.0]);
+        let svg = labels(&marks(&[(100.0, 100.0), (104.0, 99.0), (400.0, 100.0)]), [1000.0, 600.0], 0.0);
         assert!(svg.contains(">1, 2</text>") && svg.contains(">3</text>"), "{svg}");
         assert!(svg.contains("<title>1: gap; 2: gap</title>"));
     }
 
     #[test]
     fn labels_do_not_cover_each_other_and_stay_on_the_page() {
-        let row: Vec<(f64, f64)> = (0..25).map(|i| (2.0 + 39.0 * f64::from(i), 3.0)).collect();
-        let areas = areas(&labels(&marks(&row), [980.0, 300.0]));
+        let row: Vec<(f64, f64)> = (0..25).map(|i| (2.0 + 39.0 * f64::from(i), 23.0)).collect();
+        let areas = areas(&labels(&marks(&row), [980.0, 300.0], 0.0));
         assert_eq!(areas.len(), 25);
         for (i, a) in areas.iter().enumerate() {
             assert!(a.is_within(980.0, 300.0) && !areas[..i].iter().any(|b| a.meets(b)), "{a:?}");
@@ -245,7 +252,7 @@ mod tests {
     fn a_crowd_has_few_labels() {
         let crowd: Vec<(f64, f64)> =
             (0..10_000).map(|i| (f64::from(i % 100) * 10.0, f64::from(i / 100) * 10.0)).collect();
-        let count = areas(&labels(&marks(&crowd), [1080.0, 1080.0])).len();
-        assert!((20..=MAX_LABELS).contains(&count), "{count}");
+        let count = areas(&labels(&marks(&crowd), [1080.0, 1080.0], 0.0)).len();
+        assert!((20..=1080 * 1080 / 9000).contains(&count), "{count}");
     }
 }

@@ -30,6 +30,7 @@ pub struct Picture<'a> {
     moves: Vec<&'a [Move]>,
     marks: Vec<(Point, String)>,
     numbered: Vec<(Point, usize, String)>,
+    captions: Vec<(Point, f64, String)>,
 }
 
 impl<'a> Picture<'a> {
@@ -96,6 +97,12 @@ impl<'a> Picture<'a> {
     /// share a label; several places may have one number.
     pub fn numbered(mut self, marks: impl IntoIterator<Item = (Point, usize, String)>) -> Self {
         self.numbered.extend(marks.into_iter().filter(|m| m.0.is_finite()));
+        self
+    }
+
+    /// Texts in the middle of disks; left out where they would be too small to read.
+    pub fn captions(mut self, captions: impl IntoIterator<Item = (Point, f64, String)>) -> Self {
+        self.captions.extend(captions.into_iter().filter(|c| c.0.is_finite() && c.1.is_finite()));
         self
     }
 
@@ -209,6 +216,25 @@ impl<'a> Picture<'a> {
         }
     }
 
+    /// The texts in disks.
+    fn caption_texts(&self, frame: &Frame) -> String {
+        let mut texts = String::new();
+        for (center, radius, text) in &self.captions {
+            let room = 1.8 * radius * frame.scale / Frame::width_of(text);
+            if room >= SMALLEST {
+                let (x, y) = frame.on_page(*center);
+                let size = frame.letter() * room.min(1.0);
+                let _ = writeln!(
+                    texts,
+                    "<text class=\"caption\" x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"middle\" font-size=\"{size:.1}\">{}</text>",
+                    y + 0.36 * size,
+                    escape(text)
+                );
+            }
+        }
+        texts
+    }
+
     /// The numbers beside the marks.
     fn labels(&self, frame: &Frame) -> String {
         let marks: Vec<Mark> = self
@@ -219,7 +245,8 @@ impl<'a> Picture<'a> {
                 Mark { x, y, number: *number, text }
             })
             .collect();
-        let labels = label::labels(&marks, [frame.width(), frame.height()]);
+        let labels =
+            label::labels(&marks, [frame.width(), frame.height()], 40.0 + Frame::width_of(&self.title));
         if labels.is_empty() { labels } else { format!("<g class=\"key\">\n{labels}</g>\n") }
     }
 
@@ -261,11 +288,15 @@ impl<'a> Picture<'a> {
                 writeln!(svg, "<text x=\"40\" y=\"12\" font-weight=\"600\">{}</text>", escape(&self.title));
         }
         let _ = write!(svg, "<g transform=\"{}\">\n{body}</g>\n", frame.transform());
+        svg += &self.caption_texts(frame);
         svg += &self.labels(frame);
         let _ = write!(svg, "<g class=\"key\">\n{key}{}</g>\n</svg>\n", frame.scale_bar(self.units, foot));
         svg
     }
 }
+
+/// Captions are not written in letters smaller than this part of the usual ones.
+const SMALLEST: f64 = 0.4;
 
 /// What the legend explains, with the color where the style sheet does not say it.
 type Legend = Vec<(Look, Option<String>)>;

@@ -76,7 +76,7 @@ pub(super) const PICTURE: &str = "pocket-picture";
 
 /// Rules for the labels of marks.
 const TAGS: [&str; 2] = [
-    "@.tag{fill:#cc1f2f;stroke:#fdfdfb;stroke-width:1}@.number{fill:#fff;font-weight:600}\n",
+    "@.tag{fill:#cc1f2f;stroke:#fdfdfb;stroke-width:1}@.number{fill:#fff;font-weight:600}@.caption{fill:#8a94a3}\n",
     "@.tag{fill:#ff6b76;stroke:#15181d}@.number{fill:#15181d}\n",
 ];
 

@@ -1,6 +1,6 @@
 //! Pockets with their islands, as they are nested.
 
-use medial::{ArcSpline, Bounds, Pocket, Pockets};
+use medial::{ArcSpline, Bounds, Disk, Pocket, Pockets};
 use serde::Serialize;
 
 /// As many elements the medial axes may have in all: a few seconds of work.
@@ -24,6 +24,8 @@ pub struct PocketReport {
     /// Diameter of the largest tool that fits; not known beyond a limit of effort.
     pub largest_tool: Option<f64>,
     pub narrowest_neck: Option<f64>,
+    /// Where the largest tool fits.
+    pub largest_disk: Option<Disk>,
 }
 
 /// An island of a pocket.
@@ -62,6 +64,7 @@ pub fn contours(found: &Pockets, from_depth: usize) -> Vec<PocketReport> {
 
 fn of(pocket: &Pocket, with_axis: bool) -> PocketReport {
     let mat = if with_axis { pocket.medial_axis().ok() } else { None };
+    let largest_disk = mat.as_ref().map(|m| m.largest_disk());
     let island = |i: &ArcSpline| Island { area: i.area().abs(), elements: i.len(), bounds: i.bounds() };
     PocketReport {
         number: 0,
@@ -71,7 +74,8 @@ fn of(pocket: &Pocket, with_axis: bool) -> PocketReport {
         elements: pocket.loops().map(ArcSpline::len).sum(),
         bounds: pocket.bounds(),
         islands: pocket.islands().iter().map(island).collect(),
-        largest_tool: mat.as_ref().map(|m| 2.0 * m.largest_disk().radius),
+        largest_disk,
+        largest_tool: largest_disk.map(|d| 2.0 * d.radius),
         narrowest_neck: mat.as_ref().and_then(|m| m.narrowest_neck()).map(|n| 2.0 * n.radius),
     }
 }

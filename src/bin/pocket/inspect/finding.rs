@@ -2,7 +2,7 @@
 
 use medial::io::Warning;
 use medial::io::dxf::BrokenEntity;
-use medial::{Defect, Point};
+use medial::{Bounds, Defect, Point};
 use serde::Serialize;
 
 /// Something to know about a drawing.
@@ -22,6 +22,9 @@ pub struct Finding {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub entities: Vec<BrokenEntity>,
 }
+
+/// Gaps wider than this part of the drawing are not closed by joining: much else is as near.
+const WIDE: f64 = 0.02;
 
 /// How much a finding matters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
@@ -57,13 +60,25 @@ impl Weight {
 }
 
 /// Numbers the findings, faults first.
-pub fn findings(warnings: &[Warning], broken: &[BrokenEntity]) -> Vec<Finding> {
-    let mut findings: Vec<Finding> = warnings.iter().map(|w| finding(w, broken)).collect();
+pub fn findings(warnings: &[Warning], broken: &[BrokenEntity], bounds: Bounds) -> Vec<Finding> {
+    let mut findings: Vec<Finding> =
+        warnings.iter().map(|w| Finding { help: help(w, bounds), ..finding(w, broken) }).collect();
     findings.sort_by_key(|f| f.weight);
     for (i, finding) in findings.iter_mut().enumerate() {
         finding.number = i + 1;
     }
     findings
+}
+
+/// What to do; a gap that is no slip of the pen is not for `--join`.
+fn help(warning: &Warning, bounds: Bounds) -> String {
+    match warning {
+        Warning::Defect(Defect::OpenContour { gap, .. }) if *gap > WIDE * bounds.diagonal() => {
+            "draw what is missing between its ends, or leave it out with --skip-layer if it is no contour"
+                .into()
+        }
+        _ => warning.help(),
+    }
 }
 
 fn finding(warning: &Warning, broken: &[BrokenEntity]) -> Finding {
@@ -118,7 +133,8 @@ mod tests {
         });
         let open = Defect::OpenContour { start: at, end, gap: 1.0, inside: false };
         let warnings = [Warning::Truncated, Defect::Duplicates { count: 1, at }.into(), open.into(), skipped];
-        let found = findings(&warnings, &broken);
+        let found = findings(&warnings, &broken, Bounds::around([at, end]));
+        assert!(found[1].help.contains("draw what is missing"));
         let kinds: Vec<_> =
             found.iter().map(|f| (f.number, f.kind, f.places.len(), f.entities.len())).collect();
         assert_eq!(

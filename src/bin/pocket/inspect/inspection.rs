@@ -55,7 +55,7 @@ impl Inspection {
             join: tolerance.join,
             from_depth,
             pockets: contours(&found, from_depth),
-            findings: findings(&warnings, &drawing.inventory.broken),
+            findings: findings(&warnings, &drawing.inventory.broken, drawing.bounds()),
             machinable,
             reason: (!machinable).then(why),
             drawing,
@@ -76,7 +76,11 @@ impl Inspection {
         });
         let picture = Picture::new(self.units).title(&self.source).pockets(&self.found.pockets);
         let picture = picture.unused(self.drawing.curves.iter().map(|c| &c.path)).free(&self.drawing.free);
-        picture.numbered(marks).to_svg()
+        let captions = self.pockets.iter().filter_map(|p| {
+            let disk = p.largest_disk?;
+            Some((disk.center, disk.radius, format!("pocket {}", p.number)))
+        });
+        picture.captions(captions).numbered(marks).to_svg()
     }
 
     /// Whether a place is near enough to the part that it does not make the picture of it small.

@@ -80,8 +80,8 @@ impl Inspection {
 
     fn extent(&self, bounds: Bounds) -> String {
         let (size, unit) = (bounds.extent(), self.unit());
-        let [x0, y0, x1, y1] = [bounds.min.x, bounds.min.y, bounds.max.x, bounds.max.y].map(short);
-        format!("{} x {} {unit}, from ({x0}, {y0}) to ({x1}, {y1})", short(size.x), short(size.y))
+        let [x0, y0, x1, y1] = [bounds.min.x, bounds.min.y, bounds.max.x, bounds.max.y].map(rounded);
+        format!("{} x {} {unit}, from ({x0}, {y0}) to ({x1}, {y1})", rounded(size.x), rounded(size.y))
     }
 
     fn layers(&self) -> String {
@@ -153,10 +153,13 @@ impl Inspection {
         let width = self.findings.len().to_string().len();
         let mut text = format!("\n{title}: {}\n", findings.len());
         let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+        let mut last_help = "";
         for finding in findings {
             let count = counts.entry(finding.kind).or_default();
             *count += 1;
-            text += &self.finding(finding, width, *count <= MAX_HELPS);
+            let with_help = *count <= MAX_HELPS && finding.help != last_help;
+            last_help = &finding.help;
+            text += &self.finding(finding, width, with_help);
         }
         text
     }
@@ -164,11 +167,14 @@ impl Inspection {
     fn finding(&self, finding: &Finding, width: usize, with_help: bool) -> String {
         let mut text = format!("  {:>width$}  {}\n", finding.number, finding.message);
         let margin = " ".repeat(width + 4);
-        if with_help {
-            if let Some(at) = finding.at {
-                let far = if self.is_in_picture(at) { "" } else { ", which is outside of the picture" };
+        if let Some(at) = finding.at {
+            let far = !self.is_in_picture(at);
+            if far || !finding.message.contains(&at.to_string()) {
+                let far = if far { ", far outside of the part and not in the picture" } else { "" };
                 let _ = writeln!(text, "{margin}  at: {at}{far}");
             }
+        }
+        if with_help {
             let _ = writeln!(text, "{margin}help: {}", finding.help);
         }
         let listed = if finding.entities.len() > 1 { &finding.entities[..] } else { &[] };
@@ -235,7 +241,8 @@ fn fates(count: &KindCount) -> String {
 fn rounded(value: f64) -> String {
     let decimals = (5.0 - value.abs().log10().floor()).clamp(0.0, 9.0);
     let text = format!("{value:.*}", decimals as usize);
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+    let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+    if text == "-0" { "0".into() } else { text.into() }
 }
 
 /// A table below its title, with columns of equal width.
