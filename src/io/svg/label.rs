@@ -23,7 +23,7 @@ const HEIGHT: f64 = 21.0;
 const NEAR: f64 = 26.0;
 
 /// A label has so much of the page for itself, in square pixels, so that its line is short.
-const ROOM: f64 = 9000.0;
+const ROOM: f64 = 6000.0;
 
 /// As many labels are on the smallest page.
 const MIN_LABELS: usize = 16;
@@ -141,7 +141,7 @@ fn groups(marks: &[Mark], max: usize) -> Vec<Group> {
         if groups.len() <= max {
             return groups;
         }
-        near *= 1.5;
+        near *= 1.25;
     }
 }
 
@@ -253,6 +253,6 @@ mod tests {
         let crowd: Vec<(f64, f64)> =
             (0..10_000).map(|i| (f64::from(i % 100) * 10.0, f64::from(i / 100) * 10.0)).collect();
         let count = areas(&labels(&marks(&crowd), [1080.0, 1080.0], 0.0)).len();
-        assert!((20..=1080 * 1080 / 9000).contains(&count), "{count}");
+        assert!((20..=1080 * 1080 / 6000).contains(&count), "{count}");
     }
 }

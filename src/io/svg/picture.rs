@@ -100,7 +100,7 @@ impl<'a> Picture<'a> {
         self
     }
 
-    /// Texts in the middle of disks; left out where they would be too small to read.
+    /// Texts in the middle of disks; of long ones the last word where there is no room for more, and left out where they would be too small to read.
     pub fn captions(mut self, captions: impl IntoIterator<Item = (Point, f64, String)>) -> Self {
         self.captions.extend(captions.into_iter().filter(|c| c.0.is_finite() && c.1.is_finite()));
         self
@@ -220,7 +220,10 @@ impl<'a> Picture<'a> {
     fn caption_texts(&self, frame: &Frame) -> String {
         let mut texts = String::new();
         for (center, radius, text) in &self.captions {
-            let room = 1.8 * radius * frame.scale / Frame::width_of(text);
+            let room_of = |text: &str| 1.8 * radius * frame.scale / Frame::width_of(text);
+            let last_word = text.rsplit(' ').next().unwrap_or(text);
+            let text = if room_of(text) < WELL { last_word } else { text };
+            let room = room_of(text);
             if room >= SMALLEST {
                 let (x, y) = frame.on_page(*center);
                 let size = frame.letter() * room.min(1.0);
@@ -296,7 +299,10 @@ impl<'a> Picture<'a> {
 }
 
 /// Captions are not written in letters smaller than this part of the usual ones.
-const SMALLEST: f64 = 0.4;
+const SMALLEST: f64 = 0.5;
+
+/// In letters of this part of the usual size, a caption is easy to read.
+const WELL: f64 = 0.75;
 
 /// What the legend explains, with the color where the style sheet does not say it.
 type Legend = Vec<(Look, Option<String>)>;

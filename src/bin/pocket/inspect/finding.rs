@@ -16,7 +16,7 @@ pub struct Finding {
     /// The first of the places.
     pub at: Option<Point>,
     pub help: String,
-    /// All places that are known.
+    /// All places that are known; of a note the first.
     pub places: Vec<Point>,
     /// Entities that are concerned, as far as they are named one by one.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -48,6 +48,8 @@ impl Weight {
             | Warning::OriginMoved { .. }
             | Warning::OutlineOfPart { .. }
             | Warning::NotRead { layer: None, .. } => Weight::Note,
+            // Nothing is lost with it.
+            Warning::EntitySkipped { reason, .. } if reason == "it has no length" => Weight::Note,
             Warning::Defect(
                 Defect::Duplicates { .. }
                 | Defect::Overlaps { .. }
@@ -88,8 +90,10 @@ fn finding(warning: &Warning, broken: &[BrokenEntity]) -> Finding {
         }
         _ => Vec::new(),
     };
+    let weight = Weight::of(warning);
     let mut places: Vec<Point> = match warning {
         Warning::Defect(Defect::OpenContour { start, end, .. }) => vec![*start, *end],
+        _ if weight == Weight::Note => Vec::new(),
         _ => entities.iter().filter_map(|b| b.at).collect(),
     };
     places.dedup();
@@ -98,7 +102,7 @@ fn finding(warning: &Warning, broken: &[BrokenEntity]) -> Finding {
     }
     Finding {
         number: 0,
-        weight: Weight::of(warning),
+        weight,
         kind: warning.kind(),
         message: warning.to_string(),
         at: warning.at(),
