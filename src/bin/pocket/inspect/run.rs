@@ -7,7 +7,8 @@ use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::outputs::{print_out, same_file};
 use clap::Parser;
-use medial::io::{atomic, dxf};
+use medial::io::atomic;
+use medial::io::dxf::read;
 use std::path::Path;
 
 /// Looks at a drawing and tells about it.
@@ -16,7 +17,7 @@ pub fn run() -> Result<Exit, Failure> {
     let args = InspectArgs::parse_from(std::env::args_os().skip(1));
     check(&args)?;
     let options = args.reading.options()?;
-    let drawing = dxf::read(&args.drawing, &options)?;
+    let drawing = read(&args.drawing, &options)?;
     let tolerance = args.reading.tolerance(drawing.units);
     let inspection = Inspection::new(drawing, tolerance, args.reading.depth_of_pockets())?;
     let staged: Vec<(&Path, Vec<u8>)> = args
