@@ -34,7 +34,11 @@ impl Inspection {
         text += &self.findings(Weight::Fault, "faults, which leave something out");
         text += &self.findings(Weight::Note, "notes");
         if let Some(picture) = outputs.iter().find(|p| is_picture(p)) {
-            let _ = writeln!(text, "\nthe numbers stand in the picture {}", picture.display());
+            let _ = writeln!(
+                text,
+                "\nthe numbers stand in the picture {}, those of pockets in gray",
+                picture.display()
+            );
         }
         text + &self.verdict()
     }
