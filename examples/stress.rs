@@ -24,7 +24,9 @@ fn main() {
     let mut args = std::env::args().skip(1).map(|a| a.parse::<u64>().expect("a number"));
     let (seeds, size) = (args.next().unwrap_or(1000), args.next().unwrap_or(2000));
     let first = args.next().unwrap_or(1);
-    println!("      kind  shapes     sites   divided  failures  residual   brute    alike      far  left out");
+    println!(
+        "      kind  shapes     sites   divided  failures  residual   brute    alike      far  left out"
+    );
     let mut failures = 0;
     for kind in shapes::KINDS {
         let results: Vec<Result<Figures, String>> = (first..first + seeds)

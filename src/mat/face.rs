@@ -11,7 +11,7 @@
 //! faces have a hierarchy of boxes over the array.
 
 use super::bvh::{Bvh, SearchDisk};
-use super::graph::Graph;
+use super::graph::{DISK_ROUNDINGS, Graph};
 use super::piece::{Piece, UnitDisk};
 use super::site::{Foot, Site};
 use super::touch::{Contact, Probe, foot_of};
@@ -168,7 +168,7 @@ impl<'a> Face<'a> {
         [0, 1, third].into_iter().all(|i| {
             let Piece { site, from, to, .. } = graph.pieces[sub.get(self.slots, i).piece as usize].piece;
             let part = Site { start: from, end: to, ..self.sites[site as usize] };
-            (part.distance(disk.center) - disk.radius).abs() <= graph.error
+            (part.distance(disk.center) - disk.radius).abs() <= TIE_ERROR
         })
     }
 
@@ -184,7 +184,7 @@ impl<'a> Face<'a> {
     ) -> Option<Branch> {
         let defined = spread(branch.feet);
         // What a disk is uncertain by when it is divided by so little.
-        let error = graph.error / defined.max(graph.error);
+        let error = TIE_ERROR / defined.max(TIE_ERROR);
         let mut best = (defined, branch.third);
         self.near_disk(sub, branch.disk, error, |i| {
             let other = &graph.pieces[sub.get(self.slots, i).piece as usize].piece;
@@ -306,6 +306,10 @@ impl<'a> Face<'a> {
         Branch { disk, feet, third }
     }
 }
+
+/// Round-off of a disk as it is computed, in the unit frame, whatever that of the drawn coordinates is:
+/// where a disk is farther from a piece, the drawing has no tie, and a flat corner makes much of little.
+const TIE_ERROR: f64 = DISK_ROUNDINGS * f64::EPSILON;
 
 /// Three normals that span a triangle of this area or more define a disk but for two bits.
 const WELL_SPREAD: f64 = 0.25;
