@@ -1,10 +1,13 @@
 //! All trials of the axis over many random pockets: `stress [SEEDS] [SIZE] [FIRST SEED]`.
 //!
-//! Prints for each kind of shape how many there were, their sites, the failures, and the worst
-//! figures relative to the size: the residual of the certificate, the deviation of brute-force disks
+//! Prints for each kind of shape how many there were, their sites, how many of these were given to the
+//! second builder as well (which takes no islands), the failures, and the worst figures relative to the
+//! size: the residual of the certificate, the deviation of brute-force disks
 //! from the axis, and that of a vertex when the same pocket is drawn in another way, or far away. Drawings
 //! whose elements are too short for coordinates far away are left out there, and counted.
 
+#[path = "../tests/support/agreement.rs"]
+mod agreement;
 #[path = "../tests/support/alike.rs"]
 mod alike;
 #[path = "../tests/support/brute.rs"]
@@ -21,7 +24,9 @@ fn main() {
     let mut args = std::env::args().skip(1).map(|a| a.parse::<u64>().expect("a number"));
     let (seeds, size) = (args.next().unwrap_or(1000), args.next().unwrap_or(2000));
     let first = args.next().unwrap_or(1);
-    println!("      kind  shapes     sites  failures  residual   brute    alike      far  left out");
+    println!(
+        "      kind  shapes     sites   divided  failures  residual   brute    alike      far  left out"
+    );
     let mut failures = 0;
     for kind in shapes::KINDS {
         let results: Vec<Result<Figures, String>> = (first..first + seeds)
@@ -33,9 +38,10 @@ fn main() {
         faults.iter().for_each(|e| println!("{e}"));
         failures += faults.len();
         println!(
-            "{kind:>10}  {:>6}  {:>8}  {:>8}  {:.1e}  {:.1e}  {:.1e}  {:.1e}  {:>8}",
+            "{kind:>10}  {:>6}  {:>8}  {:>8}  {:>8}  {:.1e}  {:.1e}  {:.1e}  {:.1e}  {:>8}",
             results.len(),
             worst.sites,
+            worst.divided,
             faults.len(),
             worst.residual,
             worst.brute,
@@ -64,6 +70,7 @@ fn worse(a: Figures, b: &Figures) -> Figures {
         brute: a.brute.max(b.brute),
         alike: a.alike.max(b.alike),
         far: a.far.max(b.far),
+        divided: a.divided + b.divided,
         left_out: a.left_out + b.left_out,
     }
 }

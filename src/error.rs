@@ -64,7 +64,7 @@ pub enum Error {
         what: String,
     },
     /// A pocket with islands, for a method that knows none.
-    #[error("the pocket has {count} islands apart from its wall; this method needs one without")]
+    #[error("the pocket has {} apart from its wall; this method needs one without", counted(*count, "island", "islands"))]
     Islands {
         /// How many do not touch the wall.
         count: usize,
@@ -100,7 +100,7 @@ pub enum Defect {
         inside: bool,
     },
     /// Curves that are drawn more than once; the copies were dropped.
-    #[error("{count} duplicates dropped, one at {at}")]
+    #[error("{} {at}", amount(*count, "duplicate dropped", "duplicates dropped"))]
     Duplicates {
         /// How many were dropped.
         count: usize,
@@ -108,7 +108,7 @@ pub enum Defect {
         at: Point,
     },
     /// Stretches of curves that lie on others; they count once.
-    #[error("{count} stretches of curves lie on others and count once, one at {at}")]
+    #[error("{} {at}", amount(*count, "stretch of a curve lies on another and counts once", "stretches of curves lie on others and count once"))]
     Overlaps {
         /// How many there are.
         count: usize,
@@ -116,7 +116,7 @@ pub enum Defect {
         at: Point,
     },
     /// Open curves that end on other curves and make several parts of one contour.
-    #[error("{count} open curves end on other curves and divide what is in them, one at {at}")]
+    #[error("{} {at}", amount(*count, "open curve ends on others and divides what is in them", "open curves end on others and divide what is in them"))]
     Divided {
         /// How many there are.
         count: usize,
@@ -124,7 +124,7 @@ pub enum Defect {
         at: Point,
     },
     /// Loops smaller than the join tolerance, by which contours crossed themselves; they were cut off.
-    #[error("{count} loops smaller than --join were cut off, one at {at}")]
+    #[error("{} {at}", amount(*count, "loop smaller than --join was cut off", "loops smaller than --join were cut off"))]
     Healed {
         /// How many there were.
         count: usize,
@@ -144,7 +144,7 @@ pub enum Defect {
         at: Point,
     },
     /// More crossings than are listed one by one.
-    #[error("contours cross at {count} more places, one of them {at}")]
+    #[error("contours cross at {}, one of them {at}", counted(*count, "more place", "more places"))]
     MoreCrossings {
         /// How many are not listed.
         count: usize,
@@ -152,7 +152,7 @@ pub enum Defect {
         at: Point,
     },
     /// Loops that should bound one pocket bound another number of them.
-    #[error("the loops bound {count} pockets, the last one at {at}")]
+    #[error("the loops bound {}, the last one at {at}", counted(*count, "pocket", "pockets"))]
     NotOnePocket {
         /// How many they bound.
         count: usize,
@@ -171,6 +171,17 @@ pub enum Defect {
         /// Its first vertex.
         at: Point,
     },
+}
+
+/// A number with the word for what is counted.
+fn counted(count: usize, one: &str, many: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { many })
+}
+
+/// What is said of one or of many, up to the place of one of them.
+fn amount(count: usize, one: &str, many: &str) -> String {
+    let of = if count == 1 { "at" } else { "one at" };
+    format!("{}, {of}", counted(count, one, many))
 }
 
 impl Defect {

@@ -8,7 +8,8 @@ mod samples;
 
 use medial::io::DrawingUnit;
 use medial::io::dxf::{Drawing, Origin, ReadOptions, read, read_bytes};
-use medial::{ArcSpline, Error, FreeShape, Units, point};
+use medial::{ArcSpline, Error, Point, Units, point};
+use std::f64::consts::PI;
 use std::path::Path;
 
 fn sample(name: &str) -> Drawing {
@@ -599,7 +600,8 @@ fn text_and_binary_files_are_read_alike() {
         let text: String = text.lines().skip(2).map(|line| format!("{}\n", line.trim())).collect();
         let wanted = read_text(&text, &ReadOptions::default());
         for wide in [true, false] {
-            let read = read_bytes(&binary(&text, wide), "test.dxf", &ReadOptions::default()).unwrap();
+            let mut read = read_bytes(&binary(&text, wide), "test.dxf", &ReadOptions::default()).unwrap();
+            assert!(std::mem::take(&mut read.inventory.binary), "{name}");
             assert_eq!(read, wanted, "{name}");
         }
     }

@@ -3,7 +3,7 @@
 #[path = "support/shapes.rs"]
 mod shapes;
 
-use medial::{ArcSpline, Mat, Pocket, Tolerance, verify};
+use medial::{ArcSpline, Kind, Mat, Pocket, Tolerance, verify};
 use rayon::prelude::*;
 
 /// Faults of the levels of one shape at some fractions of its largest radius.
@@ -35,6 +35,34 @@ fn every_level_of_random_shapes_is_judged_right() {
         .flat_map(|kind| (1..=6u64).into_par_iter().map(move |seed| (*kind, seed)))
         .flat_map_iter(|(kind, seed)| faults(kind, 150 + 40 * seed as usize, seed))
         .collect();
+    assert!(faults.is_empty(), "{} failures:\n{}", faults.len(), faults.join("\n"));
+}
+
+/// Where all slots are as wide as each other, but for some digits: levels at their radii and next to
+/// them. Crossings slid along walls that are parallel to round-off, out of the slot.
+#[test]
+fn every_level_at_a_critical_radius_is_judged_right() {
+    let critical = |v: &medial::AxisVertex| matches!(v.kind, Kind::Neck | Kind::Branch | Kind::Peak);
+    let refused = |(seed, size): (u64, usize)| {
+        let loops = shapes::make("symmetric", size, seed);
+        let mat = axis(&loops);
+        let mut radii: Vec<f64> =
+            mat.vertices().iter().filter(|v| critical(v)).map(|v| v.disk.radius).collect();
+        radii.sort_by(f64::total_cmp);
+        radii.dedup();
+        let near = [0.0, -1e-12, 1e-12, -1e-9, 1e-9, -1e-6];
+        let some = radii.iter().step_by((radii.len() / 12).max(1));
+        let mut distances = some.flat_map(|r| near.map(|by| r * (1.0 + by)));
+        distances.find_map(|d| {
+            let level = mat.level(d);
+            let all: Vec<ArcSpline> = level.loops.iter().chain(&level.ridges).cloned().collect();
+            let report = verify::level(&loops, d, &all);
+            (!report.is_right()).then(|| format!("seed {seed}, level {d:?}: {report:?}"))
+        })
+    };
+    let shapes = [(29, 157), (44, 152), (68, 104), (59, 147), (96, 148), (148, 144), (192, 156), (207, 151)];
+    let faults: Vec<String> =
+        shapes.into_par_iter().filter_map(|(size, seed)| refused((seed, size))).collect();
     assert!(faults.is_empty(), "{} failures:\n{}", faults.len(), faults.join("\n"));
 }
 

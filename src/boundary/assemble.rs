@@ -261,7 +261,19 @@ impl Drawing {
         let idle = arranged.dividers.drain(..).enumerate().filter(|(i, _)| !along[*i] && !between[*i]);
         unused.extend(idle.map(|(_, path)| path));
         self.report_open(&unused, |p| nests.is_pocket(&faces, faces.around(p)));
-        pockets(&pieces, &faces, |face| nests.is_pocket(&faces, face) && !left_out[face])
+        let mut found = pockets(&pieces, &faces, |face| nests.is_pocket(&faces, face) && !left_out[face]);
+        found.retain(|pocket| self.is_more_than_a_gap(pocket));
+        found
+    }
+
+    /// Whether a pocket is wider than the round-off: between curves that nearly lie on each other there
+    /// may be one that is not, and the curves count as one there.
+    fn is_more_than_a_gap(&mut self, pocket: &Pocket) -> bool {
+        let is_pocket = has_area(pocket.outer(), self.grain);
+        if !is_pocket {
+            add(&mut self.overlaps, pocket.outer().vertices.first().map(|v| (1, v.point)));
+        }
+        is_pocket
     }
 
     fn report_open(&mut self, curves: &[ArcSpline], is_in_pocket: impl Fn(Point) -> bool) {

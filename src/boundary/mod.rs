@@ -38,6 +38,7 @@ mod index;
 mod intersect;
 mod junction;
 mod loose;
+mod nesting;
 mod pieces;
 mod pocket;
 mod ray;

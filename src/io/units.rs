@@ -9,13 +9,14 @@ use std::fmt;
 use std::str::FromStr;
 
 /// A unit that a drawing may claim.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[allow(missing_docs)]
 pub enum DrawingUnit {
     Inch,
     Foot,
     Mile,
+    #[default]
     Millimeter,
     Centimeter,
     Meter,

@@ -326,7 +326,8 @@ impl fmt::Display for Warning {
                 write!(f, "one outermost contour holds nearly everything; it is cleared as a pocket")
             }
             Warning::ArcsDropped { count, .. } => {
-                write!(f, "{count} arcs are shorter than the last decimal and were dropped")
+                let arcs = if *count == 1 { "arc is" } else { "arcs are" };
+                write!(f, "{count} {arcs} shorter than the last decimal, dropped")
             }
         }
     }

@@ -18,7 +18,8 @@ use crate::geom::Point;
 pub(super) const RESIDUAL_ROUNDINGS: f64 = 131_072.0;
 
 impl Mat {
-    /// Holds the axis against its boundary: it is connected and V - E = 1 - islands; its edges lie
+    /// Holds the axis against its boundary: it is connected and V - E = 1 - islands (but for islands that
+    /// touch others or the wall where one side is no corner: around these it does not run); its edges lie
     /// along the whole boundary in its order, and consecutive ones meet in a disk; every disk touches
     /// the sites it should, in the direction of their normals, and contains no boundary (at the
     /// vertices and in the middle of each edge); the radius is monotone along edges.

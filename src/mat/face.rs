@@ -11,7 +11,7 @@
 //! faces have a hierarchy of boxes over the array.
 
 use super::bvh::{Bvh, SearchDisk};
-use super::graph::Graph;
+use super::graph::{DISK_ROUNDINGS, Graph};
 use super::piece::{Piece, UnitDisk};
 use super::site::{Foot, Site};
 use super::touch::{Contact, Probe, foot_of};
@@ -157,15 +157,24 @@ impl<'a> Face<'a> {
         let sites = pieces.map(|p| &self.sites[p.site as usize]);
         [0, 1, third - 1, third, last].into_iter().find_map(|i| {
             let disk = graph.disks[sub.get(self.slots, i).disk as usize];
-            let parts = [0, 1, 2].map(|i| Site { start: pieces[i].from, end: pieces[i].to, ..*sites[i] });
-            let touches = |part: &Site| (part.distance(disk.center) - disk.radius).abs() <= graph.error;
             let feet = || [0, 1, 2].map(|i| foot_of(sites[i], disk.center, &pieces[i].from, &pieces[i].to));
-            (disk.radius > 0.0 && parts.iter().all(touches)).then(|| Branch { disk, feet: feet(), third })
+            let touches = disk.radius > 0.0 && self.touches(sub, disk, third, graph);
+            touches.then(|| Branch { disk, feet: feet(), third })
+        })
+    }
+
+    /// Whether a disk touches the first piece, the second, and the one at `third`, to round-off.
+    fn touches(&self, sub: &SubFace, disk: UnitDisk, third: usize, graph: &Graph) -> bool {
+        [0, 1, third].into_iter().all(|i| {
+            let Piece { site, from, to, .. } = graph.pieces[sub.get(self.slots, i).piece as usize].piece;
+            let part = Site { start: from, end: to, ..self.sites[site as usize] };
+            (part.distance(disk.center) - disk.radius).abs() <= TIE_ERROR
         })
     }
 
     /// Where more pieces touch the same disk, to round-off, than the three that define it: the disk
-    /// through the one that defines it best, if it is as empty.
+    /// through the one that defines it best, if it touches the three and is as empty. It need not: a
+    /// disk that three pieces define badly is near to many that it has nothing to do with.
     fn best_of_ties(
         &self,
         track: &Track<'_>,
@@ -175,7 +184,7 @@ impl<'a> Face<'a> {
     ) -> Option<Branch> {
         let defined = spread(branch.feet);
         // What a disk is uncertain by when it is divided by so little.
-        let error = graph.error / defined.max(graph.error);
+        let error = TIE_ERROR / defined.max(TIE_ERROR);
         let mut best = (defined, branch.third);
         self.near_disk(sub, branch.disk, error, |i| {
             let other = &graph.pieces[sub.get(self.slots, i).piece as usize].piece;
@@ -197,7 +206,8 @@ impl<'a> Face<'a> {
         let reach = [1, best.1].map(|i| track.reach(self.sites, piece(i), &probe).0);
         let other = self.branch(track, &probe, reach[0].min(reach[1]), best.1, graph, sub);
         let intrusion = |b: &Branch| self.intrusion(sub, b.disk, error, graph);
-        (intrusion(&other) <= intrusion(branch)).then_some(other)
+        let touches = self.touches(sub, other.disk, best.1, graph);
+        (touches && intrusion(&other) <= intrusion(branch)).then_some(other)
     }
 
     /// How far pieces of the face reach into a disk.
@@ -296,6 +306,10 @@ impl<'a> Face<'a> {
         Branch { disk, feet, third }
     }
 }
+
+/// Round-off of a disk as it is computed, in the unit frame, whatever that of the drawn coordinates is:
+/// where a disk is farther from a piece, the drawing has no tie, and a flat corner makes much of little.
+const TIE_ERROR: f64 = DISK_ROUNDINGS * f64::EPSILON;
 
 /// Three normals that span a triangle of this area or more define a disk but for two bits.
 const WELL_SPREAD: f64 = 0.25;

@@ -68,6 +68,17 @@ impl Sites {
         all
     }
 
+    /// How many islands the axis runs around.
+    ///
+    /// It runs around every hole, and through a place where loops touch from one sector of the pocket
+    /// into another, but only between those that are corners: in a sector of half a turn or more, the
+    /// place is no end of the axis, and an island that touches there is as good as a part of the wall.
+    pub fn encircled(&self) -> usize {
+        let holes = self.rings.iter().filter(|ring| ring.link.is_some()).count();
+        let united = self.touching.iter().filter(|(joint, first)| joint != first).count();
+        (1 + holes + united).saturating_sub(self.rings.len() - holes)
+    }
+
     fn add_ring(&mut self, parts: &[Part], direction: Option<Vector>) {
         let first = self.sites.len() as u32;
         for (i, part) in parts.iter().enumerate() {

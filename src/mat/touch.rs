@@ -151,7 +151,40 @@ pub(crate) fn foot_of(site: &Site, center: Point, from: &Foot, to: &Foot) -> Foo
         *from
     } else if (point - to.point).dot(to.normal.right()) > 0.0 {
         *to
+    } else if normal.dot(from.normal + to.normal) < 0.0 {
+        // The far side of the circle lies between the ends of a part without length, too.
+        *from
     } else {
         Foot { point, normal }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::site::Joint;
+    use super::super::{SiteKind, SiteRef};
+    use super::*;
+    use crate::geom::{point, vector};
+
+    #[test]
+    fn the_foot_on_a_part_without_length_is_its_end() {
+        let start = Foot { point: point(0.0, -1.0), normal: vector(0.0, 1.0) };
+        let end = Foot { point: point(1.0, 0.0), normal: vector(-1.0, 0.0) };
+        let source = SiteRef { loop_index: 0, element: 0, kind: SiteKind::Arc };
+        let (joint, error) = (Joint::Smooth { same_circle: false }, f64::EPSILON);
+        let site = Site {
+            start,
+            end,
+            curvature: 1.0,
+            error,
+            is_vertex: false,
+            joint,
+            prev: 0,
+            next: 0,
+            vertices: [0; 2],
+            source,
+        };
+        assert_eq!(foot_of(&site, point(0.0, 0.0), &end, &end), end);
+        assert_eq!(foot_of(&site, point(0.0, 0.0), &start, &start), start);
     }
 }

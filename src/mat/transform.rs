@@ -26,6 +26,7 @@ pub struct Mat {
     pub(crate) bvh: Bvh,
     pub(crate) graph: Graph,
     pub(super) kinds: Kinds,
+    /// Islands that the axis runs around, see [`Sites::encircled`].
     pub(super) islands: usize,
     /// Largest angle at a joint that was taken for round-off.
     pub(super) blur: f64,
@@ -60,7 +61,7 @@ pub enum Mismatch {
         vertices: usize,
         /// Edges of the axis.
         edges: usize,
-        /// Islands of the pocket.
+        /// Islands of the pocket that the axis runs around.
         islands: usize,
     },
     /// The pieces of the boundary that the edges stand for are not the whole boundary in its order.
@@ -98,7 +99,7 @@ impl Pocket {
         for angle in DIRECTIONS {
             match laminate(self, &frame, Vector::from_angle(angle)) {
                 Ok((all, bvh, map, union)) => {
-                    let mat = || Mat::build(frame, all, bvh, map, self.islands().len());
+                    let mat = || Mat::build(frame, all, bvh, map);
                     if union.0 <= UNION_ERROR {
                         return Ok(mat());
                     }
@@ -138,14 +139,15 @@ fn laminate(pocket: &Pocket, frame: &Frame, direction: Vector) -> Result<Laminat
 }
 
 impl Mat {
-    pub(super) fn build(frame: Frame, all: Sites, bvh: Bvh, map: Lamination, islands: usize) -> Mat {
+    pub(super) fn build(frame: Frame, all: Sites, bvh: Bvh, map: Lamination) -> Mat {
         let mut graph = Graph::of(&all.sites, map, DISK_ROUNDINGS * frame.noise);
         graph.contract();
-        Mat::of_graph(frame, all, bvh, graph, islands)
+        Mat::of_graph(frame, all, bvh, graph)
     }
 
     /// The transform whose vertices and edges are those of a graph of contracted edges.
-    pub(super) fn of_graph(frame: Frame, all: Sites, bvh: Bvh, mut graph: Graph, islands: usize) -> Mat {
+    pub(super) fn of_graph(frame: Frame, all: Sites, bvh: Bvh, mut graph: Graph) -> Mat {
+        let islands = all.encircled();
         graph.split_at_extrema(&all.sites);
         let kinds = Kinds::of(&graph);
         Mat { frame, sites: all.sites, bvh, graph, kinds, islands, blur: all.blur, radii: OnceLock::new() }

@@ -175,11 +175,21 @@ impl<'a> Tracer<'a> {
         });
         // The place at this distance from the one side is exact; the other's is made so as well.
         let start = track.at(t).center(self.d);
-        self.polished([self.site(&a), self.site(&b)], start)
+        self.polished(e, [self.site(&a), self.site(&b)], start)
     }
 
-    /// Newton's step for a place at distance `d` from two carriers, while it helps.
-    fn polished(&self, sites: [&Site; 2], mut c: Point) -> Point {
+    /// Whether a place can lie on an edge, but for round-off. The edge turns by a quarter at most, so it
+    /// is nowhere farther from one end than the other end is; and `s` beyond the end of a wall the
+    /// distance to it is no more than `s^2 / 2d` larger.
+    fn may_hold(&self, edge: &GraphEdge, c: Point) -> bool {
+        let ends = edge.disks.map(|d| self.mat.graph.disks[d as usize].center);
+        let longest = ends[0].distance(ends[1]) + (2.0 * self.d * self.mat.graph.error).sqrt();
+        ends.iter().all(|end| end.distance(c) <= longest)
+    }
+
+    /// Newton's step for a place at distance `d` from two carriers, while it helps. Between walls that
+    /// are parallel but for round-off it may lead anywhere along them, and must not leave the edge.
+    fn polished(&self, edge: &GraphEdge, sites: [&Site; 2], mut c: Point) -> Point {
         let residuals = |c: Point| sites.map(|s| s.carrier_distance(c)).map(|(s, n)| (self.d - s, n));
         let worst = |r: &[(f64, crate::geom::Vector); 2]| r[0].0.abs().max(r[1].0.abs());
         let mut now = residuals(c);
@@ -189,7 +199,7 @@ impl<'a> Tracer<'a> {
             let step = crate::geom::vector((e0 * n1.y - e1 * n0.y) / det, (e1 * n0.x - e0 * n1.x) / det);
             let next = c + step;
             let after = residuals(next);
-            let converges = worst(&after) < 0.5 * worst(&now);
+            let converges = worst(&after) < 0.5 * worst(&now) && self.may_hold(edge, next);
             if !converges {
                 break;
             }

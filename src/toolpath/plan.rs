@@ -10,12 +10,13 @@
 use super::course::Course;
 use super::cutter::Cutter;
 use super::detour::Detours;
-use super::nest::{Nest, Pass, index};
+use super::nest::{Indexed, Nest, Pass, index};
 use super::{Direction, Entry, Job, Start, Warning};
 use crate::error::Error;
 use crate::geom::{ArcSpline, Bounds, Element, Point};
 use crate::mat::Mat;
 use crate::offset::Level;
+use rstar::RTree;
 
 /// Largest number of moves of a path.
 pub(super) const MAX_MOVES: u64 = 20_000_000;
@@ -115,16 +116,8 @@ impl<'a> Planner<'a> {
         if self.job.finish <= 0.0 || levels.len() < 2 {
             return vec![false; nest.passes.len()];
         }
-        let radius = self.job.radius();
         let roughing = index(&levels[1]);
-        let is_near = |e: Element| {
-            let parts = (e.length() / radius).ceil().max(1.0);
-            (0..=parts as usize).all(|i| {
-                let p = e.point_at(i as f64 / parts);
-                let near = roughing.nearest_neighbor(&[p.x, p.y]);
-                near.is_some_and(|n| n.element.distance(p) <= radius)
-            })
-        };
+        let is_near = |e: Element| runs_near(&e, &roughing, self.job.radius());
         let is_last = |p: &Pass| {
             p.level == 0 && levels[0].loops.get(p.index).is_some_and(|s| s.elements().all(is_near))
         };
@@ -300,4 +293,33 @@ fn to_and_fro(course: &Course, run: f64) -> Vec<Element> {
         }
     }
     ramp
+}
+
+/// Whether all of an element lies within a distance of the passes in an index.
+///
+/// Elements are lines and circles, as passes are: where three places are near one element of a pass, so
+/// is what lies between them. Stretches where that changes are halved, down to the distance.
+fn runs_near(e: &Element, passes: &RTree<Indexed>, within: f64) -> bool {
+    let length = e.length();
+    let nearest = |p: Point| passes.nearest_neighbor(&[p.x, p.y]).map(|found| found.element);
+    let is_near = |p: Point| nearest(p).is_some_and(|n| n.distance(p) <= within);
+    let mut stretches = vec![(0.0, 1.0)];
+    while let Some((from, to)) = stretches.pop() {
+        let middle = 0.5 * (from + to);
+        let Some(n) = nearest(e.point_at(middle)) else { return false };
+        if n.distance(e.point_at(middle)) > within {
+            return false;
+        }
+        let [start, end] = [from, to].map(|t| e.point_at(t));
+        if n.distance(start) <= within && n.distance(end) <= within {
+            continue;
+        }
+        if !(is_near(start) && is_near(end)) {
+            return false;
+        }
+        if length * (to - from) > within {
+            stretches.extend([(from, middle), (middle, to)]);
+        }
+    }
+    true
 }

@@ -64,6 +64,8 @@ fn pushed(spline: &ArcSpline, d: f64) -> Vec<Element> {
             all.push(Element { start: e.end + n1 * d, end: e.end + next * d, bulge });
         }
     }
+    // An arc without length, at a joint that round-off bent, has no normal to look along.
+    all.retain(|e| e.chord().length_squared() > 0.0);
     all
 }
 

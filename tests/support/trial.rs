@@ -1,7 +1,9 @@
 //! Everything that must hold for the axis of a pocket: the certificate, maximal disks by brute force,
-//! and that drawing the same pocket in other ways changes nothing but coordinates.
+//! the same axis from the second builder, and that drawing the same pocket in other ways changes
+//! nothing but coordinates.
 #![allow(dead_code)]
 
+use crate::agreement::disagreement;
 use crate::alike::{self, Names};
 use crate::brute::Brute;
 use crate::shapes;
@@ -19,6 +21,8 @@ pub struct Figures {
     pub alike: f64,
     /// The same for a pocket drawn a thousand sizes away, where coordinates have three digits less.
     pub far: f64,
+    /// Sites of the pocket that both builders were given: without its islands, which are for one alone.
+    pub divided: usize,
     /// Ways of drawing in which the directions of its elements would be lost.
     pub left_out: usize,
 }
@@ -40,6 +44,7 @@ pub fn trial(loops: &[ArcSpline], seed: u64) -> Result<Figures, String> {
         sites: mat.counts().sites,
         residual: residuals.empty.max(residuals.touch).max(residuals.monotone),
         brute: Brute::new(&pocket).deviation(&mat, seed, DISKS)?,
+        divided: divided(loops, &mat).map_err(|e| format!("division: {e}"))?,
         ..Figures::default()
     };
     let shortest = loops.iter().flat_map(|l| l.elements()).map(|e| e.length()).fold(f64::INFINITY, f64::min);
@@ -53,6 +58,15 @@ pub fn trial(loops: &[ArcSpline], seed: u64) -> Result<Figures, String> {
         *figure = figure.max(off);
     }
     Ok(figures)
+}
+
+/// Holds the second builder against the first; answers the number of sites.
+fn divided(loops: &[ArcSpline], mat: &Mat) -> Result<usize, String> {
+    let (pocket, outline) = axis(&loops[..1], 1.0)?;
+    let mat = if loops.len() == 1 { mat } else { &outline };
+    let other = pocket.medial_axis_by_division().map_err(|e| e.to_string())?;
+    other.check().map_err(|e| e.to_string())?;
+    disagreement(mat, &other).map_or(Ok(other.counts().sites), Err)
 }
 
 fn axis(loops: &[ArcSpline], scale: f64) -> Result<(Pocket, Mat), String> {

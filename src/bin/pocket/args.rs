@@ -1,9 +1,16 @@
 //! The command line as typed; `settings` makes sense of it.
 
 use crate::length::{Length, Step, above_0, at_least_0, number_above_0, number_at_least_0, slope, step};
+use crate::reading::Reading;
 use clap::{Parser, ValueEnum};
-use medial::io::dxf::Color;
 use std::path::PathBuf;
+
+/// What stands below the options.
+const AFTER: &str = "\
+pocket inspect DRAWING.dxf -o picture.svg tells what a drawing holds, and every defect with its place \
+and its cure; begin there when something is wrong (pocket inspect --help).
+
+example: pocket part.dxf --tool 6 --step 40% --depth 5 --step-down 1.5 -o part.nc";
 
 /// Tool paths for pockets, from a DXF drawing through the exact medial axis.
 ///
@@ -18,7 +25,8 @@ use std::path::PathBuf;
     name = "pocket",
     version,
     allow_negative_numbers = true,
-    after_help = "example: pocket part.dxf --tool 6 --step 40% --depth 5 --step-down 1.5 -o part.nc"
+    override_usage = "pocket [OPTIONS] <DRAWING.dxf>\n       pocket inspect [OPTIONS] <DRAWING.dxf>",
+    after_help = AFTER
 )]
 pub struct Args {
     /// Drawing to machine
@@ -133,63 +141,8 @@ pub struct Args {
     #[arg(long, value_name = "LENGTH", value_parser = above_0, help_heading = "Machine")]
     pub retract: Option<Length>,
 
-    /// Unit of the job [default: in for a drawing in inches, else mm]
-    #[arg(long, value_enum, value_name = "UNIT", help_heading = "Drawing")]
-    pub units: Option<UnitsArg>,
-
-    /// Unit of the drawing, whatever it claims
-    #[arg(long, value_name = "UNIT", help_heading = "Drawing")]
-    pub dxf_units: Option<String>,
-
-    /// Factor for all coordinates of the drawing
-    #[arg(long, value_name = "FACTOR", value_parser = number_above_0, default_value = "1", help_heading = "Drawing")]
-    pub scale: f64,
-
-    /// Where the origin lies: as drawn, or at the lower left corner or the center of all curves
-    ///
-    /// Everything that is written, and every place in the report, is told from there.
-    #[arg(long, value_enum, default_value_t, help_heading = "Drawing")]
-    pub origin: OriginArg,
-
-    /// Largest distance between drawn curve and arc spline [default: 0.001 mm, 0.00004 in]
-    #[arg(long, value_name = "LENGTH", value_parser = above_0, help_heading = "Drawing")]
-    pub tolerance: Option<Length>,
-
-    /// Largest gap closed between ends [default: 0.01 mm, 0.0004 in]
-    #[arg(long, value_name = "LENGTH", value_parser = at_least_0, help_heading = "Drawing")]
-    pub join: Option<Length>,
-
-    /// Take the outermost contour for the outline of the part: pockets begin inside it
-    ///
-    /// The same as --from-depth 1.
-    #[arg(long, conflicts_with = "from_depth", help_heading = "Drawing")]
-    pub skip_outer: bool,
-
-    /// Number of contours around a pocket: 0 for the outermost contours, 1 for those in them ...
-    #[arg(long, value_name = "N", default_value_t = 0, help_heading = "Drawing")]
-    pub from_depth: usize,
-
-    /// Layer to read, * for anything; repeatable [default: all visible]
-    #[arg(long = "layer", value_name = "NAME", help_heading = "Drawing")]
-    pub layers: Vec<String>,
-
-    /// Layer to leave out, * for anything; repeatable
-    #[arg(long = "skip-layer", value_name = "NAME", help_heading = "Drawing")]
-    pub skip_layers: Vec<String>,
-
-    /// Color to read, a number of the AutoCAD index or red, yellow, green ...; repeatable [default: all]
-    ///
-    /// An entity that has the color of its layer or its block counts with that.
-    #[arg(long = "color", value_name = "COLOR", help_heading = "Drawing")]
-    pub colors: Vec<Color>,
-
-    /// Read layers that are off or frozen too
-    #[arg(long, help_heading = "Drawing")]
-    pub hidden: bool,
-
-    /// Read the boundaries of hatched areas too
-    #[arg(long, help_heading = "Drawing")]
-    pub hatch: bool,
+    #[command(flatten)]
+    pub reading: Reading,
 
     /// Controller that the program is for
     #[arg(long, value_enum, default_value_t, help_heading = "Program")]
@@ -207,7 +160,10 @@ pub struct Args {
     #[arg(long, help_heading = "Program")]
     pub line_numbers: bool,
 
-    /// Hold every level set against exact distances; exit 3 when one is wrong
+    /// Hold every level set against exact distances and against cavalier_contours
+    ///
+    /// Exit 3 when one is wrong by exact distances; where cavalier_contours alone differs, the report
+    /// says where.
     #[arg(long, help_heading = "Report")]
     pub verify: bool,
 
@@ -235,14 +191,14 @@ pub struct Args {
 /// Names that are kept for subcommands.
 pub const SUBCOMMANDS: [&str; 2] = ["inspect", "check"];
 
-/// What to say when a subcommand is asked for.
+/// What to say when the name of a subcommand stands where none can.
 pub fn reserved(name: &str) -> String {
-    format!(
-        "`{name}` is a subcommand that this version does not have; a file of that name is written ./{name}"
-    )
+    let why = if name == "inspect" { "comes first, before all options" } else { "is not in this version" };
+    format!("`{name}` is a subcommand and {why}; a file of that name is written ./{name}")
 }
 
-fn drawing(text: &str) -> Result<PathBuf, String> {
+/// The name of a drawing, which is not that of a subcommand.
+pub fn drawing(text: &str) -> Result<PathBuf, String> {
     if SUBCOMMANDS.contains(&text) { Err(reserved(text)) } else { Ok(PathBuf::from(text)) }
 }
 
@@ -290,22 +246,6 @@ pub enum CoolantArg {
     Off,
     Mist,
     Flood,
-}
-
-/// `--units`.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum UnitsArg {
-    Mm,
-    In,
-}
-
-/// `--origin`.
-#[derive(Clone, Copy, Debug, Default, ValueEnum)]
-pub enum OriginArg {
-    #[default]
-    Dxf,
-    Min,
-    Center,
 }
 
 /// `--post`.

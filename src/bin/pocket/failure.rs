@@ -2,6 +2,7 @@
 
 use crate::exit::Exit;
 use medial::{Error, Point};
+use std::path::Path;
 
 /// An end before the work is done.
 #[derive(Debug)]
@@ -16,6 +17,15 @@ impl Failure {
     /// The command line makes no sense.
     pub fn usage(message: impl Into<String>, help: impl Into<String>) -> Failure {
         Failure { exit: Exit::Usage, message: message.into(), at: None, help: Some(help.into()) }
+    }
+
+    /// The same, with the advice to look at the drawing.
+    pub fn or_inspect(self, drawing: &Path) -> Failure {
+        let name = drawing.display().to_string();
+        let is_plain = |c: char| c.is_alphanumeric() || "._-/\\:".contains(c);
+        let name = if name.chars().all(is_plain) { name } else { format!("\"{name}\"") };
+        let help = format!("see what the drawing holds: pocket inspect {name} -o picture.svg");
+        Failure { help: Some(help), ..self }
     }
 
     /// Names the file that could not be written and why.
@@ -42,7 +52,9 @@ fn help(error: &Error) -> Option<String> {
         Error::File { action: "read", .. } => "check the name of the drawing and whether it may be read",
         Error::File { .. } => "check that the folder exists and may be written to; nothing was written",
         Error::NotADrawing { .. } => "save the drawing as DXF in the drawing program",
-        Error::NothingToMachine { .. } => "see the warnings above, or take a smaller tool: --tool, --stock",
+        Error::NothingToMachine { .. } => {
+            "take a smaller tool: --tool, --stock; pocket inspect tells the largest that fits"
+        }
         Error::Defects(defects) => return defects.first().map(medial::Defect::help),
         Error::Parameter { name, .. } => return Some(format!("see --{name} in pocket --help")),
         Error::Effort { .. } => {

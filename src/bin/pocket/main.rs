@@ -3,11 +3,13 @@
 mod args;
 mod exit;
 mod failure;
+mod inspect;
 mod length;
 mod notice;
 mod outputs;
 mod plan;
 mod progress;
+mod reading;
 mod report;
 mod second;
 mod settings;
@@ -39,7 +41,19 @@ fn main() -> ExitCode {
 }
 
 fn run() -> Result<Exit, Failure> {
-    let args = parse()?;
+    match std::env::args_os().nth(1).as_ref().and_then(|name| name.to_str()) {
+        Some("inspect") => inspect::run(),
+        Some(name) if SUBCOMMANDS.contains(&name) => {
+            Err(Failure::usage(reserved(name), "see pocket --help for what there is"))
+        }
+        _ => machine(),
+    }
+}
+
+/// The main job: a program for the pockets of a drawing.
+fn machine() -> Result<Exit, Failure> {
+    // Help and version end the program here.
+    let args = Args::parse();
     let outputs = Outputs::new(&args)?;
     args.check()?;
     set_threads(&args)?;
@@ -58,15 +72,6 @@ fn run() -> Result<Exit, Failure> {
     let report = Report::new(&plan, verdict.as_ref(), args.timings.then_some(timings));
     tell(&args, &plan, &report)?;
     Ok(exit(&args, &plan, verdict.as_ref()))
-}
-
-/// The command line; help and version end the program here.
-fn parse() -> Result<Args, Failure> {
-    let first = std::env::args_os().nth(1);
-    if let Some(name) = first.as_ref().and_then(|a| a.to_str()).filter(|a| SUBCOMMANDS.contains(a)) {
-        return Err(Failure::usage(reserved(name), "see pocket --help for what there is"));
-    }
-    Args::try_parse().map_err(|e| e.exit())
 }
 
 fn set_threads(args: &Args) -> Result<(), Failure> {

@@ -123,11 +123,11 @@ pub fn print_out(text: &str) -> Result<(), Failure> {
     }
 }
 
-fn cannot_write(path: &Path, cause: std::io::Error) -> Error {
+pub fn cannot_write(path: &Path, cause: std::io::Error) -> Error {
     Error::File { action: "write", path: path.display().to_string(), cause }
 }
 
-fn same_file(a: &Path, b: &Path) -> bool {
+pub fn same_file(a: &Path, b: &Path) -> bool {
     match (a.canonicalize(), b.canonicalize()) {
         (Ok(a), Ok(b)) => a == b,
         _ => a == b,

@@ -42,15 +42,16 @@ impl Plan {
         notices: &mut Vec<Notice>,
     ) -> Result<Plan, Failure> {
         progress.stage("reading");
-        let options = args.read_options()?;
+        let options = args.reading.options()?;
         let drawing = timed(&mut timings.read, || dxf::read(&args.drawing, &options))?;
         timings.take_fit(drawing.fitted.time);
         notices.extend(drawing.warnings.iter().map(Notice::from));
         let job = args.job(drawing.units)?;
-        let tolerance = args.tolerance(drawing.units);
+        let tolerance = args.reading.tolerance(drawing.units);
         progress.stage("chaining");
-        let from_depth = args.depth_of_pockets();
-        let pockets = pockets(&drawing, tolerance, from_depth, timings, notices)?;
+        let from_depth = args.reading.depth_of_pockets();
+        let pockets = pockets(&drawing, tolerance, from_depth, timings, notices)
+            .map_err(|failure| failure.or_inspect(&args.drawing))?;
         progress.stage("medial axis");
         let mats = timed(&mut timings.axis, || {
             pockets.iter().map(Pocket::medial_axis).collect::<Result<Vec<_>, _>>()
@@ -123,7 +124,7 @@ fn pockets(
 }
 
 /// Why there is no pocket.
-fn nothing(no_curve: bool, no_defect: bool, from_depth: usize) -> String {
+pub fn nothing(no_curve: bool, no_defect: bool, from_depth: usize) -> String {
     let reason = match (no_curve, no_defect) {
         (true, _) => "the drawing holds no curve that is read",
         (false, _) if from_depth > 0 => {

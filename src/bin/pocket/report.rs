@@ -1,6 +1,6 @@
 //! What was done: as text for people or as JSON for programs.
 
-use crate::notice::{Notice, short};
+use crate::notice::{Notice, counted, short};
 use crate::plan::Plan;
 use crate::timings::Timings;
 use crate::verdict::Verdict;
@@ -89,18 +89,19 @@ impl<'a> Report<'a> {
         for (i, p) in self.pockets.iter().enumerate() {
             let _ = write!(
                 text,
-                "pocket {}: area {:.3} {unit}2, {} islands, {} arcs, largest tool {:.4} {unit}",
+                "pocket {}: area {:.3} {unit}2, {}, {}, largest tool {:.4} {unit}",
                 i + 1,
                 p.area,
-                p.islands,
-                p.arcs,
+                counted(p.islands, "island", "islands"),
+                counted(p.arcs, "arc", "arcs"),
                 p.largest_tool
             );
             if let Some(neck) = p.narrowest_neck {
                 let _ = write!(text, ", narrowest neck {neck:.4} {unit}");
             }
             let _ = if p.machined {
-                writeln!(text, ", {} passes, {:.4} {unit}2 out of reach", p.passes, p.unreachable_area)
+                let passes = counted(p.passes, "pass", "passes");
+                writeln!(text, ", {passes}, {:.4} {unit}2 out of reach", p.unreachable_area)
             } else {
                 writeln!(text, ", left out")
             };
@@ -108,8 +109,13 @@ impl<'a> Report<'a> {
         let path = &self.path;
         let _ = writeln!(
             text,
-            "path: {:.1} {unit} cut, {:.1} {unit} rapid, {} retracts, {} arcs, {} lines, {:.1} min",
-            path.cut_length, path.rapid_length, path.retracts, path.arcs, path.lines, path.minutes
+            "path: {:.1} {unit} cut, {:.1} {unit} rapid, {}, {}, {}, {:.1} min",
+            path.cut_length,
+            path.rapid_length,
+            counted(path.retracts, "retract", "retracts"),
+            counted(path.arcs, "arc", "arcs"),
+            counted(path.lines, "line", "lines"),
+            path.minutes
         );
         text += &self.verify.map_or(String::new(), Verdict::text);
         text += &self.timings.map_or(String::new(), |t| t.text());

@@ -1,49 +1,18 @@
 //! What the command line means, once the unit of the job is known.
 
-use crate::args::{
-    ArcsArg, Args, CoolantArg, DirectionArg, EntryArg, OriginArg, PostArg, StartArg, StrategyArg, UnitsArg,
-};
+use crate::args::{ArcsArg, Args, CoolantArg, DirectionArg, EntryArg, PostArg, StartArg, StrategyArg};
 use crate::failure::Failure;
 use crate::length::{Length, Step};
 use crate::notice::short;
-use medial::io::dxf::{FitTolerance, Origin, ReadOptions};
+use crate::reading::UnitsArg;
+use medial::Units;
 use medial::io::gcode::{ArcWords, Coolant, Setup};
 use medial::toolpath::{Direction, Entry, Job, Start, Strategy};
-use medial::{Tolerance, Units};
 
 /// Step in percent of the tool, when only the tool is given.
 const DEFAULT_PERCENT: f64 = 40.0;
 
 impl Args {
-    /// What of the drawing to read.
-    pub fn read_options(&self) -> Result<ReadOptions, Failure> {
-        let dxf_units = match &self.dxf_units {
-            None => None,
-            Some(name) => Some(name.parse().map_err(|reason| {
-                Failure::usage(format!("--dxf-units: {reason}"), "write mm, cm, m, in, ft, mil ...")
-            })?),
-        };
-        Ok(ReadOptions {
-            units: self.units.map(|u| match u {
-                UnitsArg::Mm => Units::Mm,
-                UnitsArg::In => Units::Inch,
-            }),
-            dxf_units,
-            scale: self.scale,
-            layers: self.layers.clone(),
-            skip_layers: self.skip_layers.clone(),
-            colors: self.colors.clone(),
-            hidden: self.hidden,
-            hatch: self.hatch,
-            origin: match self.origin {
-                OriginArg::Dxf => Origin::Dxf,
-                OriginArg::Min => Origin::Min,
-                OriginArg::Center => Origin::Center,
-            },
-            fit: FitTolerance { mm: self.tolerance(Units::Mm).fit, inch: self.tolerance(Units::Inch).fit },
-        })
-    }
-
     /// Whether the options fit together, as far as that can be said without the drawing.
     pub fn check(&self) -> Result<(), Failure> {
         if let (Some(Step::Percent(_)), None) = (self.step, self.tool) {
@@ -52,27 +21,12 @@ impl Args {
                 "add --tool, or give the step as a length: --step 0.5",
             ));
         }
-        match self.units {
+        match self.reading.units {
             Some(UnitsArg::Mm) => self.job(Units::Mm).map(drop),
             Some(UnitsArg::In) => self.job(Units::Inch).map(drop),
             // Options in mixed units may fit together in one unit alone; the drawing decides.
             None => self.job(Units::Mm).or_else(|e| self.job(Units::Inch).map_err(|_| e)).map(drop),
         }
-    }
-
-    /// Nesting depth at which pockets begin.
-    pub fn depth_of_pockets(&self) -> usize {
-        if self.skip_outer { 1 } else { self.from_depth }
-    }
-
-    /// Lengths that the user may choose.
-    pub fn tolerance(&self, units: Units) -> Tolerance {
-        let default = match units {
-            Units::Mm => Tolerance::MM,
-            Units::Inch => Tolerance::INCH,
-        };
-        let or = |length: Option<Length>, default: f64| length.map_or(default, |l| l.to(units));
-        Tolerance { fit: or(self.tolerance, default.fit), join: or(self.join, default.join) }
     }
 
     /// The tool and what it shall do.
@@ -142,7 +96,7 @@ impl Args {
                 ArcsArg::R => ArcWords::R,
                 ArcsArg::Off => ArcWords::Off,
             },
-            tolerance: self.tolerance(job.units).fit,
+            tolerance: self.reading.tolerance(job.units).fit,
             top: job.top,
             clearance: job.clearance,
             spindle: self.spindle,

@@ -10,6 +10,7 @@
 
 use super::ReadOptions;
 use super::insert::{Blocks, Effort, expand};
+use super::inventory::{Fate, Tally};
 use super::layers::Layers;
 use super::names::{Name, Names};
 use super::placement::{Placement, in_job};
@@ -63,6 +64,7 @@ pub(super) struct Collection<'a> {
     pub free: Vec<FreeCurve>,
     pub selection: Selection<'a>,
     pub skipped: Skipped,
+    pub tally: Tally,
     /// How many polylines have another number of vertices than they say, and the first of them.
     pub miscounted: Option<(usize, Place)>,
     inserts: Vec<Record>,
@@ -77,6 +79,7 @@ impl<'a> Collection<'a> {
             free: Vec::new(),
             selection: Selection::new(options),
             skipped: Skipped::default(),
+            tally: Tally::default(),
             miscounted: None,
             inserts: Vec::new(),
             vertices: 0,
@@ -116,35 +119,50 @@ impl<'a> Collection<'a> {
     /// Draws one entity that is no insert.
     pub fn draw(&mut self, record: &Record, context: &Context, tables: &Tables) -> Result<(), Error> {
         let its = Self::trait_of(record, context, tables);
-        if !self.selection.takes(its, &tables.layers, &tables.names) {
-            return Ok(());
-        }
-        let (kind, layer) = (tables.names.text(record.kind_name), tables.names.text(its.layer));
-        if record.kind == Kind::Other {
-            self.skipped.kind(kind, layer);
-            return Ok(());
-        }
-        let place = || place_of(record, context, tables.scale);
-        if let Some(fault) = &record.fault {
-            self.skipped.fault(kind, record, fault, place());
-            return Ok(());
-        }
-        let mut drawn = std::mem::take(&mut self.drawn);
-        match draw(record, Stage { placement: &context.placement, scale: tables.scale }, &mut drawn) {
-            Err(Skip::NotRead(form)) => self.skipped.form(form, layer),
-            Err(Skip::Fault(reason)) => self.skipped.fault(kind, record, &reason, place()),
-            Ok(()) => {
-                self.note(kind, record, &drawn, place);
-                let source = Source { kind: kind.clone(), handle: record.handle, layer: layer.clone() };
-                drawn.shapes.drain(..).for_each(|shape| self.keep(shape, &source));
-            }
-        }
-        self.drawn = drawn;
+        let fate = match self.selection.takes(its, &tables.layers, &tables.names) {
+            Ok(()) => self.draw_selected(record, its, context, tables),
+            Err(fate) => fate,
+        };
+        self.tally.count(its.layer, record.kind_name, fate);
         if self.vertices > MAX_VERTICES {
             let what = "holding the drawing in memory (in vertices)";
             return Err(Error::Effort { what, needed: self.vertices, limit: MAX_VERTICES });
         }
         Ok(())
+    }
+
+    fn draw_selected(&mut self, record: &Record, its: Trait, context: &Context, tables: &Tables) -> Fate {
+        let (kind, layer) = (tables.names.text(record.kind_name), tables.names.text(its.layer));
+        if record.kind == Kind::Other {
+            self.skipped.kind(kind, layer);
+            return Fate::NotRead;
+        }
+        let place = || place_of(record, context, tables.scale);
+        if let Some(fault) = &record.fault {
+            self.skipped.fault(kind, record, fault, place());
+            return Fate::Broken;
+        }
+        let mut drawn = std::mem::take(&mut self.drawn);
+        let fate =
+            match draw(record, Stage { placement: &context.placement, scale: tables.scale }, &mut drawn) {
+                Err(Skip::NotRead(form)) => {
+                    self.skipped.form(form, layer);
+                    Fate::NotRead
+                }
+                Err(Skip::Fault(reason)) => {
+                    self.skipped.fault(kind, record, &reason, place());
+                    Fate::Broken
+                }
+                Ok(()) => {
+                    self.note(kind, record, &drawn, place);
+                    let source = Source { kind: kind.clone(), handle: record.handle, layer: layer.clone() };
+                    let is_free = drawn.shapes.iter().any(|shape| matches!(shape, Shape::Free(_)));
+                    drawn.shapes.drain(..).for_each(|shape| self.keep(shape, &source));
+                    if is_free { Fate::Free } else { Fate::Read }
+                }
+            };
+        self.drawn = drawn;
+        fate
     }
 
     fn note(&mut self, kind: &str, record: &Record, drawn: &Drawn, place: impl Fn() -> Option<Point>) {

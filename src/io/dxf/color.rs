@@ -1,5 +1,6 @@
 //! Colors of the AutoCAD color index.
 
+use serde::{Serialize, Serializer};
 use std::fmt;
 use std::str::FromStr;
 
@@ -28,6 +29,13 @@ impl fmt::Display for Color {
             Some(name) => f.write_str(name),
             None => write!(f, "{}", self.0),
         }
+    }
+}
+
+/// As its name or its number.
+impl Serialize for Color {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
     }
 }
 

@@ -1,6 +1,6 @@
 //! What is read from a file, and what a caller may ask for.
 
-use super::Color;
+use super::{Color, Inventory};
 use crate::boundary::{Curve, FreeCurve, FreeShape};
 use crate::geom::{Bounds, Point, Vector, point};
 use crate::io::{DrawingUnit, Warning};
@@ -27,6 +27,8 @@ pub struct Drawing {
     pub origin: Point,
     /// What was left out, assumed or mended.
     pub warnings: Vec<Warning>,
+    /// Everything that the file holds, also what is left out.
+    pub inventory: Inventory,
 }
 
 /// How ellipses and splines became arcs and segments.
@@ -129,6 +131,8 @@ impl Drawing {
         }
         self.free.iter_mut().for_each(|free| move_free(free, by));
         self.warnings.iter_mut().for_each(|warning| warning.move_by(by));
+        let places = self.inventory.broken.iter_mut().filter_map(|b| b.at.as_mut());
+        places.for_each(|at| *at += by);
         self.warnings.push(Warning::OriginMoved { to });
     }
 }

@@ -1,6 +1,7 @@
 //! Blocks and their inserts.
 
 use super::collect::{Collection, Context, Tables, place_of};
+use super::inventory::Fate;
 use super::names::{Name, Names};
 use super::placement::Placement;
 use super::record::{Kind, Numbers, Record};
@@ -130,18 +131,22 @@ fn enter<'a>(
     inside: &[bool],
 ) -> Option<Visit<'a>> {
     let its = Collection::trait_of(insert, outer, tables);
-    if !collection.selection.enters(its, &tables.layers, &tables.names) {
+    let kind = insert.kind_name;
+    if let Err(fate) = collection.selection.enters(its, &tables.layers, &tables.names) {
+        collection.tally.count(its.layer, kind, fate);
         return None;
     }
     match array_of(insert, blocks, &tables.names, inside) {
         Ok((block, array)) => {
+            collection.tally.count(its.layer, kind, Fate::Read);
             let inner = Context { placement: array.cell(0, outer), layer: Some(its.layer), color: its.color };
             let entities = &blocks.blocks[block].entities;
             Some(Visit { block, array, cell: 0, next: 0, outer: *outer, inner, entities })
         }
         Err(reason) => {
             let at = place_of(insert, outer, tables.scale);
-            collection.skipped.fault(tables.names.text(insert.kind_name), insert, &reason, at);
+            collection.tally.count(its.layer, kind, Fate::Broken);
+            collection.skipped.fault(tables.names.text(kind), insert, &reason, at);
             None
         }
     }

@@ -25,6 +25,7 @@ mod drawing;
 mod fit;
 mod hatch;
 mod insert;
+mod inventory;
 mod layers;
 mod magic;
 mod mend;
@@ -46,5 +47,6 @@ mod writer;
 
 pub use color::Color;
 pub use drawing::{Drawing, FitTolerance, Fitted, Origin, ReadOptions};
+pub use inventory::{BrokenEntity, Inventory, KindCount, LayerContent, UnitReason};
 pub use read::{read, read_bytes, read_from};
 pub use writer::Sheet;

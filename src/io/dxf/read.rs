@@ -6,7 +6,7 @@ use super::mend::Mend;
 use super::scan::Scan;
 use super::tags::{Broken, Tags};
 use super::unit::{Header, Unit};
-use super::{Drawing, ReadOptions};
+use super::{Drawing, Inventory, ReadOptions};
 use crate::error::Error;
 use crate::io::{Scale, Warning};
 use crate::tolerance::Units;
@@ -68,7 +68,10 @@ pub fn read_from(source: &mut dyn Read, name: &str, options: &ReadOptions) -> Re
         return Err(no_drawing("it has no section of a DXF".into()));
     }
     scan.mends.count_all(Mend::BlankLine, tags.blanks());
-    finish(scan, ended, name, options)
+    let binary = matches!(tags, Tags::Binary(_));
+    let mut drawing = finish(scan, ended, name, options)?;
+    drawing.inventory.binary = binary;
+    Ok(drawing)
 }
 
 /// Takes all tags; answers whether the end mark was met.
@@ -116,17 +119,28 @@ fn scale(header: Header, name: &str, options: &ReadOptions) -> Result<(Unit, Uni
 /// Everything that is known at the end.
 fn finish(scan: Scan, ended: bool, name: &str, options: &ReadOptions) -> Result<Drawing, Error> {
     let (unit, units, _) = scale(scan.header, name, options)?;
-    let Scan { collection, mut mends, tables, .. } = scan;
+    let claimed = scan.header.claimed();
+    let Scan { mut collection, mut mends, tables, version, .. } = scan;
     let mut warnings: Vec<Warning> = unit.warning(units).into_iter().collect();
     if !ended {
         warnings.push(Warning::Truncated);
     }
     mends.count_all(Mend::VertexCount, collection.miscounted);
     warnings.extend(mends.warnings());
+    let inventory = Inventory {
+        version,
+        binary: false,
+        claimed,
+        unit: unit.unit,
+        reason: unit.reason,
+        layers: collection.tally.layers(&tables),
+        broken: std::mem::take(&mut collection.skipped.broken),
+    };
     warnings.extend(collection.skipped.warnings());
     warnings.extend(collection.selection.warnings(&tables.names));
+    let name = name.to_owned();
     let mut drawing =
-        Drawing { name: name.to_owned(), units, curves: collection.curves, warnings, ..Drawing::default() };
+        Drawing { name, units, curves: collection.curves, warnings, inventory, ..Drawing::default() };
     drawing.fit(collection.free, options.fit);
     drawing.warnings.extend(implausible(&drawing, &unit));
     drawing.move_origin(options.origin);

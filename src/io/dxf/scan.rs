@@ -47,6 +47,7 @@ enum Part {
 /// Everything that the tags said so far.
 pub(super) struct Scan<'a> {
     pub header: Header,
+    pub version: Option<String>,
     pub tables: Tables,
     pub blocks: Blocks,
     pub collection: Collection<'a>,
@@ -69,6 +70,7 @@ impl<'a> Scan<'a> {
     pub fn new(options: &'a ReadOptions) -> Scan<'a> {
         Scan {
             header: Header::default(),
+            version: None,
             tables: Tables::default(),
             blocks: Blocks::default(),
             collection: Collection::new(options),
@@ -148,6 +150,7 @@ impl<'a> Scan<'a> {
     fn variable(&mut self, tag: Tag) {
         match (tag.code, self.variable.as_slice()) {
             (9, _) => self.variable = tag.value.text().to_vec(),
+            (1, b"$ACADVER") => self.version = Some(super::number::name(tag.value.text())),
             (70, b"$INSUNITS") => self.header.insunits = whole(tag.value),
             (70, b"$MEASUREMENT") => self.header.measurement = whole(tag.value),
             _ => {}

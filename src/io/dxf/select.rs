@@ -1,5 +1,6 @@
 //! Which entities take part.
 
+use super::inventory::Fate;
 use super::layers::Layers;
 use super::names::{Name, Names};
 use super::{Color, ReadOptions};
@@ -47,11 +48,9 @@ impl<'a> Selection<'a> {
         }
     }
 
-    /// Whether an entity takes part.
-    pub fn takes(&mut self, entity: Trait, layers: &Layers, names: &Names) -> bool {
-        if self.is_on_paper(entity) {
-            return false;
-        }
+    /// Whether an entity takes part; if not, why.
+    pub fn takes(&mut self, entity: Trait, layers: &Layers, names: &Names) -> Result<(), Fate> {
+        self.is_in_model(entity)?;
         let options = self.options;
         let state = *self.states.entry(entity.layer).or_insert_with(|| {
             let name = names.text(entity.layer);
@@ -71,38 +70,36 @@ impl<'a> Selection<'a> {
         self.colors.extend(color);
         let colored = options.colors.is_empty() || color.is_some_and(|c| options.colors.contains(&c));
         match state {
-            State::Unwanted => false,
-            _ if !colored => false,
+            State::Unwanted => Err(Fate::Unselected),
+            _ if !colored => Err(Fate::Unselected),
             State::Hidden(state) if !options.hidden => {
                 self.hide(names.text(entity.layer), state);
-                false
+                Err(Fate::Hidden)
             }
             _ => self.is_seen(entity),
         }
     }
 
     /// Whether what a block holds is to be looked at: a frozen layer hides all of it.
-    pub fn enters(&mut self, insert: Trait, layers: &Layers, names: &Names) -> bool {
-        if self.is_on_paper(insert) {
-            return false;
-        }
+    pub fn enters(&mut self, insert: Trait, layers: &Layers, names: &Names) -> Result<(), Fate> {
+        self.is_in_model(insert)?;
         let name = names.text(insert.layer);
         if layers.get(name).frozen && !self.options.hidden {
             self.hide(name, "frozen");
-            return false;
+            return Err(Fate::Hidden);
         }
         self.is_seen(insert)
     }
 
-    fn is_on_paper(&mut self, entity: Trait) -> bool {
+    fn is_in_model(&mut self, entity: Trait) -> Result<(), Fate> {
         self.paper += usize::from(entity.paper);
-        entity.paper
+        if entity.paper { Err(Fate::Paper) } else { Ok(()) }
     }
 
-    fn is_seen(&mut self, entity: Trait) -> bool {
+    fn is_seen(&mut self, entity: Trait) -> Result<(), Fate> {
         let hidden = entity.invisible && !self.options.hidden;
         self.invisible += usize::from(hidden);
-        !hidden
+        if hidden { Err(Fate::Hidden) } else { Ok(()) }
     }
 
     fn hide(&mut self, layer: &str, state: &'static str) {
@@ -183,7 +180,8 @@ mod tests {
             .iter()
             .map(|&(layer, color)| {
                 let layer = names.number(layer.as_bytes());
-                selection.takes(Trait { layer, color, ..Trait::default() }, &Layers::default(), &names)
+                let its = Trait { layer, color, ..Trait::default() };
+                selection.takes(its, &Layers::default(), &names).is_ok()
             })
             .collect();
         (taken, selection.warnings(&names).collect())

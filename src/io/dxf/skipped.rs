@@ -1,5 +1,6 @@
 //! Counts of what was not read, and of what was made simpler.
 
+use super::BrokenEntity;
 use super::record::Record;
 use crate::geom::Point;
 use crate::io::{Place, Warning};
@@ -9,6 +10,9 @@ use std::collections::BTreeMap;
 const OUTLINES: [&str; 10] =
     ["HELIX", "MLINE", "SOLID", "TRACE", "3DFACE", "REGION", "3DSOLID", "BODY", "SURFACE", "MESH"];
 
+/// As many entities with faults are listed one by one.
+const MAX_BROKEN: usize = 10_000;
+
 /// Everything that was met and not read as it was drawn, by kind and reason.
 #[derive(Default)]
 pub(super) struct Skipped {
@@ -16,6 +20,8 @@ pub(super) struct Skipped {
     kinds: BTreeMap<(String, Option<String>), usize>,
     faults: BTreeMap<(String, String), First>,
     simplified: BTreeMap<(String, &'static str), First>,
+    /// Those with faults, one by one.
+    pub broken: Vec<BrokenEntity>,
 }
 
 /// How many, and the first of them.
@@ -42,6 +48,11 @@ impl Skipped {
 
     /// An entity with something wrong.
     pub fn fault(&mut self, kind: &str, record: &Record, reason: &str, at: Option<Point>) {
+        if self.broken.len() < MAX_BROKEN {
+            let (kind, reason) = (kind.to_owned(), reason.to_owned());
+            let (handle, place) = (record.handle, record.place);
+            self.broken.push(BrokenEntity { kind, handle, place, reason, at });
+        }
         count(&mut self.faults, (kind.to_owned(), reason.to_owned()), record, at);
     }
 

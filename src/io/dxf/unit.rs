@@ -1,6 +1,6 @@
 //! The unit of a drawing, and what speaks for it.
 
-use super::ReadOptions;
+use super::{ReadOptions, UnitReason};
 use crate::io::{DrawingUnit, Warning};
 use crate::tolerance::Units;
 
@@ -11,29 +11,41 @@ pub(super) struct Header {
     pub measurement: Option<i64>,
 }
 
+impl Header {
+    /// The unit that the header names.
+    pub fn claimed(self) -> Option<DrawingUnit> {
+        self.insunits.and_then(DrawingUnit::from_dxf)
+    }
+}
+
 /// The unit of a drawing and how it is known.
 pub(super) struct Unit {
     pub unit: DrawingUnit,
-    /// Assumed, by the measurement flag or without any sign.
-    assumed: Option<bool>,
+    pub reason: UnitReason,
 }
 
 impl Unit {
     /// What the user says counts most, then what the drawing claims.
     pub fn of(header: Header, options: &ReadOptions) -> Unit {
-        let told = options.dxf_units.or(header.insunits.and_then(DrawingUnit::from_dxf));
-        if let Some(unit) = told.or(options.units.map(DrawingUnit::from)) {
-            return Unit { unit, assumed: None };
-        }
-        match header.measurement {
-            Some(0) => Unit { unit: DrawingUnit::Inch, assumed: Some(true) },
-            Some(1) => Unit { unit: DrawingUnit::Millimeter, assumed: Some(true) },
-            _ => Unit { unit: DrawingUnit::Millimeter, assumed: Some(false) },
-        }
+        let flagged = match header.measurement {
+            Some(0) => Some(DrawingUnit::Inch),
+            Some(1) => Some(DrawingUnit::Millimeter),
+            _ => None,
+        };
+        let signs = [
+            (options.dxf_units, UnitReason::Told),
+            (header.claimed(), UnitReason::Claimed),
+            (options.units.map(DrawingUnit::from), UnitReason::Job),
+            (flagged, UnitReason::Flag),
+        ];
+        let first = signs.into_iter().find_map(|(unit, reason)| Some(Unit { unit: unit?, reason }));
+        first.unwrap_or(Unit { unit: DrawingUnit::Millimeter, reason: UnitReason::Assumed })
     }
 
     /// What the user has to know about it.
     pub fn warning(&self, job: Units) -> Option<Warning> {
-        self.assumed.map(|flagged| Warning::UnitAssumed { unit: self.unit, job, flagged })
+        let flagged = self.reason == UnitReason::Flag;
+        let assumed = flagged || self.reason == UnitReason::Assumed;
+        assumed.then_some(Warning::UnitAssumed { unit: self.unit, job, flagged })
     }
 }

@@ -78,6 +78,13 @@ impl Frame {
         format!("matrix({0} 0 0 -{0} {x:.4} {y:.4})", self.scale)
     }
 
+    /// A place on the page, in pixels from its upper left corner.
+    pub fn on_page(&self, p: Point) -> (f64, f64) {
+        let left = 0.5 * (self.width() - self.bounds.extent().x * self.scale);
+        let p = p - self.bounds.min;
+        (left + p.x * self.scale, self.height() - MARGIN - p.y * self.scale)
+    }
+
     /// A length or a shifted coordinate, as short as can be.
     pub fn number(&self, value: f64) -> String {
         let text = format!("{value:.*}", self.decimals);
@@ -129,6 +136,11 @@ impl Frame {
         }
         let height = if entries.is_empty() { 0.0 } else { y + 0.6 * LINE - top };
         (text, height)
+    }
+
+    /// Width of a text, rather too wide.
+    pub fn width_of(text: &str) -> f64 {
+        1.2 * WIDTH_OF_LETTER * LETTER * text.chars().count() as f64
     }
 
     /// Size of letters in pixels.

@@ -4,6 +4,8 @@
 //! may be enlarged at will. Colors read on white paper and on a dark screen.
 
 mod frame;
+mod free;
+mod label;
 mod picture;
 mod shape;
 mod style;

@@ -1,9 +1,11 @@
 //! The layers of a picture.
 
 use super::frame::{Frame, escape};
+use super::free;
+use super::label::{self, Mark};
 use super::shape;
 use super::style::{self, Look};
-use crate::boundary::Pocket;
+use crate::boundary::{FreeCurve, Pocket};
 use crate::geom::{ArcSpline, Bounds, Element, Point};
 use crate::mat::AxisEdge;
 use crate::offset::Level;
@@ -21,10 +23,14 @@ pub struct Picture<'a> {
     units: Units,
     pockets: Vec<&'a Pocket>,
     curves: Vec<&'a ArcSpline>,
+    unused: Vec<&'a ArcSpline>,
+    free: Vec<Vec<Point>>,
     levels: Vec<&'a Level>,
     axes: Vec<&'a AxisEdge>,
     moves: Vec<&'a [Move]>,
     marks: Vec<(Point, String)>,
+    numbered: Vec<(Point, usize, String)>,
+    captions: Vec<(Point, f64, String)>,
 }
 
 impl<'a> Picture<'a> {
@@ -48,6 +54,18 @@ impl<'a> Picture<'a> {
     /// Curves that bound nothing.
     pub fn curves(mut self, curves: impl IntoIterator<Item = &'a ArcSpline>) -> Self {
         self.curves.extend(curves);
+        self
+    }
+
+    /// Curves that could have been boundary; where a pocket has them, its boundary covers them.
+    pub fn unused(mut self, curves: impl IntoIterator<Item = &'a ArcSpline>) -> Self {
+        self.unused.extend(curves);
+        self
+    }
+
+    /// Ellipses and splines, drawn dashed and not exactly.
+    pub fn free(mut self, curves: impl IntoIterator<Item = &'a FreeCurve>) -> Self {
+        self.free.extend(curves.into_iter().map(free::samples));
         self
     }
 
@@ -75,6 +93,19 @@ impl<'a> Picture<'a> {
         self
     }
 
+    /// Places to look at, each with a number beside it and what it stands for. Places near each other
+    /// share a label; several places may have one number.
+    pub fn numbered(mut self, marks: impl IntoIterator<Item = (Point, usize, String)>) -> Self {
+        self.numbered.extend(marks.into_iter().filter(|m| m.0.is_finite()));
+        self
+    }
+
+    /// Texts in the middle of disks; of long ones the last word where there is no room for more, and left out where they would be too small to read.
+    pub fn captions(mut self, captions: impl IntoIterator<Item = (Point, f64, String)>) -> Self {
+        self.captions.extend(captions.into_iter().filter(|c| c.0.is_finite() && c.1.is_finite()));
+        self
+    }
+
     /// The picture as text.
     pub fn to_svg(&self) -> String {
         let frame = Frame::new(self.bounds());
@@ -92,12 +123,14 @@ impl<'a> Picture<'a> {
     fn bounds(&self) -> Bounds {
         let loops = self.pockets.iter().flat_map(|p| p.loops());
         let levels = self.levels.iter().flat_map(|l| l.loops.iter().chain(&l.ridges));
-        let splines = loops.chain(self.curves.iter().copied()).chain(levels);
+        let splines =
+            loops.chain(self.curves.iter().copied()).chain(self.unused.iter().copied()).chain(levels);
         let shapes = splines.map(ArcSpline::bounds).fold(Bounds::EMPTY, Bounds::union);
         let axes = self.axes.iter().flat_map(|e| e.points).filter(|p| p.is_finite());
         let cuts = self.moves.iter().flat_map(|m| m.iter()).filter(|m| !matches!(m, Move::Rapid { .. }));
         let ends = cuts.map(|m| m.to().xy()).filter(|p| p.is_finite());
-        let places = axes.chain(ends).chain(self.marks.iter().map(|m| m.0));
+        let marks = self.marks.iter().map(|m| m.0).chain(self.numbered.iter().map(|m| m.0));
+        let places = axes.chain(ends).chain(marks).chain(self.free.iter().flatten().copied());
         shapes.union(Bounds::around(places))
     }
 
@@ -108,6 +141,10 @@ impl<'a> Picture<'a> {
             let _ = writeln!(body, "<path class=\"floor\" d=\"{d}\"/>");
         }
         layer(body, legend, style::CURVE, &curves);
+        let unused: String = self.unused.iter().map(|c| shape::spline(frame, c)).collect();
+        layer(body, legend, style::UNUSED, &unused);
+        let free: String = self.free.iter().map(|places| shape::chain(frame, places)).collect();
+        layer(body, legend, style::FREE, &free);
         let walls: String =
             self.pockets.iter().flat_map(|p| p.loops()).map(|l| shape::spline(frame, l)).collect();
         layer(body, legend, style::WALL, &walls);
@@ -166,9 +203,54 @@ impl<'a> Picture<'a> {
         for (p, text) in &self.marks {
             dot(frame, body, style::MARK, *p, 9.0, text);
         }
-        if !self.marks.is_empty() {
+        // Marks that cannot be told apart are one.
+        let mut drawn = BTreeSet::new();
+        for (p, ..) in &self.numbered {
+            let (x, y) = frame.on_page(*p);
+            if drawn.insert(((0.5 * x) as i64, (0.5 * y) as i64)) {
+                dot(frame, body, style::MARK, *p, 5.0, "");
+            }
+        }
+        if !(self.marks.is_empty() && self.numbered.is_empty()) {
             legend.push((style::MARK, None));
         }
+    }
+
+    /// The texts in disks.
+    fn caption_texts(&self, frame: &Frame) -> String {
+        let mut texts = String::new();
+        for (center, radius, text) in &self.captions {
+            let room_of = |text: &str| 1.8 * radius * frame.scale / Frame::width_of(text);
+            let last_word = text.rsplit(' ').next().unwrap_or(text);
+            let text = if room_of(text) < WELL { last_word } else { text };
+            let room = room_of(text);
+            if room >= SMALLEST {
+                let (x, y) = frame.on_page(*center);
+                let size = frame.letter() * room.min(1.0);
+                let _ = writeln!(
+                    texts,
+                    "<text class=\"caption\" x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"middle\" font-size=\"{size:.1}\">{}</text>",
+                    y + 0.36 * size,
+                    escape(text)
+                );
+            }
+        }
+        texts
+    }
+
+    /// The numbers beside the marks.
+    fn labels(&self, frame: &Frame) -> String {
+        let marks: Vec<Mark> = self
+            .numbered
+            .iter()
+            .map(|(p, number, text)| {
+                let (x, y) = frame.on_page(*p);
+                Mark { x, y, number: *number, text }
+            })
+            .collect();
+        let labels =
+            label::labels(&marks, [frame.width(), frame.height()], 40.0 + Frame::width_of(&self.title));
+        if labels.is_empty() { labels } else { format!("<g class=\"key\">\n{labels}</g>\n") }
     }
 
     /// The whole page: drawing above, legend and scale bar below.
@@ -190,7 +272,13 @@ impl<'a> Picture<'a> {
         if frame.shift.length_squared() > 0.0 {
             let _ = writeln!(svg, "<desc>moved by {} {}</desc>", -frame.shift.x, -frame.shift.y);
         }
-        let _ = write!(svg, "<style>\n{}</style>\n", style::sheet(frame.pixel()));
+        let is_used = |look: &Look| legend.iter().any(|(l, _)| l.class == look.class);
+        let more: Vec<Look> = [style::UNUSED, style::FREE].into_iter().filter(is_used).collect();
+        let _ = write!(
+            svg,
+            "<style>\n{}</style>\n",
+            style::sheet(frame.pixel(), &more, !self.numbered.is_empty())
+        );
         let _ = writeln!(
             svg,
             "<rect class=\"stock\" x=\"-1\" y=\"{:.0}\" width=\"{:.0}\" height=\"{:.0}\"/>",
@@ -203,10 +291,18 @@ impl<'a> Picture<'a> {
                 writeln!(svg, "<text x=\"40\" y=\"12\" font-weight=\"600\">{}</text>", escape(&self.title));
         }
         let _ = write!(svg, "<g transform=\"{}\">\n{body}</g>\n", frame.transform());
+        svg += &self.caption_texts(frame);
+        svg += &self.labels(frame);
         let _ = write!(svg, "<g class=\"key\">\n{key}{}</g>\n</svg>\n", frame.scale_bar(self.units, foot));
         svg
     }
 }
+
+/// Captions are not written in letters smaller than this part of the usual ones.
+const SMALLEST: f64 = 0.5;
+
+/// In letters of this part of the usual size, a caption is easy to read.
+const WELL: f64 = 0.75;
 
 /// What the legend explains, with the color where the style sheet does not say it.
 type Legend = Vec<(Look, Option<String>)>;

@@ -28,6 +28,16 @@ pub(super) fn spline(frame: &Frame, spline: &ArcSpline) -> String {
     d
 }
 
+/// A chain of segments.
+pub(super) fn chain(frame: &Frame, places: &[Point]) -> String {
+    let mut d = String::new();
+    for (i, p) in places.iter().enumerate() {
+        d.push(if i == 0 { 'M' } else { 'L' });
+        d += &frame.place(*p);
+    }
+    d
+}
+
 /// One element, drawn from its start. Arcs beyond a half circle are drawn as two.
 pub(super) fn element(frame: &Frame, e: &Element) -> String {
     let sagitta = 0.5 * e.bulge.abs() * e.chord().length();

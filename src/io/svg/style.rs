@@ -46,6 +46,12 @@ pub(super) const CURVE: Look = look("curve", "drawn", ["#6b7684", "#98a3b1"], 1.
 /// Defects.
 pub(super) const MARK: Look = look("mark", "defect", ["#cc1f2f", "#ff6b76"], 2.0, &[]);
 
+/// Curves of the drawing that could have been boundary and are not.
+pub(super) const UNUSED: Look = look("unused", "drawn, in no pocket", ["#d9600a", "#ff9d4d"], 1.4, &[]);
+/// Ellipses and splines.
+pub(super) const FREE: Look =
+    look("free", "ellipse or spline, not fitted", ["#7a3fc4", "#b995f5"], 1.4, &[7.0, 4.0]);
+
 const ALL: [Look; 8] = [WALL, AXIS, LEVEL, CUT, ENTRY, RAPID, CURVE, MARK];
 
 /// Color of level `i` of `n`: from the wall inward through hues of a middling lightness, which
@@ -68,9 +74,18 @@ pub(super) fn level_color(i: usize, n: usize) -> String {
 /// in a page and leave the rest of the page alone.
 pub(super) const PICTURE: &str = "pocket-picture";
 
-/// The style sheet. `pixel` is the size of a pixel in job units: programs that do not know widths
+/// Rules for the labels of marks.
+const TAGS: [&str; 2] = [
+    "@.tag{fill:#cc1f2f;stroke:#fdfdfb;stroke-width:1}@.number{fill:#fff;font-weight:600}@.caption{fill:#8a94a3}\n",
+    "@.tag{fill:#ff6b76;stroke:#15181d}@.number{fill:#15181d}\n",
+];
+
+/// The style sheet; with the rules for `more` looks than those of every picture, and for labels if
+/// there are any. `pixel` is the size of a pixel in job units: programs that do not know widths
 /// that stay when the picture is enlarged draw with that.
-pub(super) fn sheet(pixel: f64) -> String {
+pub(super) fn sheet(pixel: f64, more: &[Look], labels: bool) -> String {
+    let looks: Vec<&Look> = ALL.iter().chain(more).collect();
+    let [tags, dark_tags] = if labels { TAGS } else { [""; 2] };
     let within = format!(".{PICTURE} ");
     let scoped = |css: &str| css.replace('@', &within);
     let mut css = scoped(
@@ -80,18 +95,20 @@ pub(super) fn sheet(pixel: f64) -> String {
          @.stock{fill:#e9e4da}@.floor{fill:#fdfdfb;stroke:none;fill-rule:evenodd}\n\
          @.scale{stroke:#3a4554;stroke-width:1.6}\n",
     );
-    for l in ALL {
-        let _ = writeln!(css, "{within}.{}{{stroke:{};{}}}", l.class, l.light, pen(&l, pixel, ""));
-        let _ = writeln!(css, "{within}.key .{}{{{}}}", l.class, pen(&l, 1.0, ""));
+    css += &scoped(tags);
+    for l in &looks {
+        let _ = writeln!(css, "{within}.{}{{stroke:{};{}}}", l.class, l.light, pen(l, pixel, ""));
+        let _ = writeln!(css, "{within}.key .{}{{{}}}", l.class, pen(l, 1.0, ""));
     }
     css += "@supports (vector-effect:non-scaling-stroke){\n";
     css += &scoped("@path,@circle{vector-effect:non-scaling-stroke}\n");
-    for l in ALL {
-        let _ = writeln!(css, "{within}.{}{{{}}}", l.class, pen(&l, 1.0, "px"));
+    for l in &looks {
+        let _ = writeln!(css, "{within}.{}{{{}}}", l.class, pen(l, 1.0, "px"));
     }
     css += "}\n@media (prefers-color-scheme:dark){\n";
     css += &scoped("@text{fill:#c3ccd8}@.scale{stroke:#c3ccd8}@.stock{fill:#15181d}@.floor{fill:#252b34}\n");
-    for l in ALL {
+    css += &scoped(dark_tags);
+    for l in &looks {
         let _ = writeln!(css, "{within}.{}{{stroke:{}}}", l.class, l.dark);
     }
     css + "}\n@media print{" + &scoped("@.stock{fill:#f1eee8}") + "}\n"

@@ -64,7 +64,7 @@ fn built(pocket: &Pocket, meddle: impl FnOnce(&mut Sites, &mut [Shot])) -> Optio
     let mut shots = shoot_all(&all.sites, &bvh);
     meddle(&mut all, &mut shots);
     let map = Lamination::of(&all, &shots)?;
-    Some(Mat::build(frame, all, bvh, map, pocket.islands().len()))
+    Some(Mat::build(frame, all, bvh, map))
 }
 
 /// Breaks the axis of every pocket in as many ways as there are, and demands that each is seen.
