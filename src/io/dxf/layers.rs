@@ -94,7 +94,7 @@ mod tests {
         let layers = layers(table);
         let known = |name: &str, color| Layer { name: name.into(), color, ..UNKNOWN.clone() };
         assert_eq!(*layers.get("OFF"), Layer { off: true, ..known("Off", 5) });
-        assert_eq!(*layers.get("Ice"), Layer { frozen: true, ..known("ICE", 3) });
+        assert_eq!(*layers.get("Ice"), Layer { frozen: true, locked: true, ..known("ICE", 3) });
         assert_eq!(*layers.get("locked"), Layer { locked: true, ..known("Locked", 1) });
         assert_eq!(layers.get("no such layer"), &UNKNOWN);
         assert_eq!(layers.all().map(|(key, _)| key).collect::<Vec<_>>(), ["ice", "locked", "off"]);
