@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 
 /// Drawings of the short run.
-const SEEDS: std::ops::Range<u64> = 0..1500;
+const SEEDS: std::ops::Range<u64> = 0..2400;
 
 #[test]
 fn whatever_mutated_drawings_mean_is_cut_right() {
