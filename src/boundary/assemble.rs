@@ -269,7 +269,8 @@ impl Drawing {
     /// Whether a pocket is wider than the round-off: between curves that nearly lie on each other there
     /// may be one that is not, and the curves count as one there.
     fn is_more_than_a_gap(&mut self, pocket: &Pocket) -> bool {
-        let is_pocket = has_area(pocket.outer(), self.grain);
+        let length: f64 = pocket.loops().map(ArcSpline::length).sum();
+        let is_pocket = pocket.area() > self.grain.same * length;
         if !is_pocket {
             add(&mut self.overlaps, pocket.outer().vertices.first().map(|v| (1, v.point)));
         }

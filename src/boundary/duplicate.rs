@@ -49,11 +49,15 @@ impl Seen {
         let files = files_of(sides, FILE_WIDTH * same, 2.0 * same);
         let is_large = self.reach > same && bounds.diagonal() > LARGE * self.reach;
         let near_files = if is_large { files_of(sides, NEAR_WIDTH * self.reach, self.reach) } else { vec![] };
-        let knows = |known: &HashMap<[i64; 4], Vec<u32>>, files: &[[i64; 4]], within: f64| {
-            let candidates = files.iter().filter_map(|f| known.get(f)).flatten();
-            candidates.into_iter().any(|&c| equal(&self.curves[c as usize], path, within))
+        let candidates = |known: &HashMap<[i64; 4], Vec<u32>>, files: &[[i64; 4]]| {
+            let numbers: Vec<u32> = files.iter().filter_map(|f| known.get(f)).flatten().copied().collect();
+            numbers.into_iter().map(|c| &self.curves[c as usize])
         };
-        if knows(&self.files, &files, same) || knows(&self.near_files, &near_files, self.reach) {
+        let is_copy = |c: &ArcSpline| equal(c, path, same);
+        let is_near = |c: &ArcSpline| equal(c, path, self.reach) || runs_alike(c, path, self.reach);
+        if candidates(&self.files, &files).any(is_copy)
+            || candidates(&self.near_files, &near_files).any(is_near)
+        {
             self.copies.get_or_insert((0, path.vertices[0].point)).0 += 1;
             return false;
         }
@@ -109,6 +113,20 @@ fn equal_from(a: &ArcSpline, b: &ArcSpline, start: usize, within: f64) -> bool {
         })
 }
 
+/// Pairs of elements that are held against each other, at most, to find copies with other vertices.
+const MAX_PAIRS: usize = 4096;
+
+/// Whether closed curves lie within a distance of each other although their vertices differ: a circle
+/// that is drawn once more, begun elsewhere or of more arcs.
+fn runs_alike(a: &ArcSpline, b: &ArcSpline, within: f64) -> bool {
+    let is_near = |p: Point, other: &ArcSpline| other.elements().any(|e| e.distance(p) <= within);
+    let runs_along = |one: &ArcSpline, other: &ArcSpline| {
+        one.elements().all(|e| is_near(e.start, other) && is_near(e.midpoint(), other))
+    };
+    let is_cheap = a.len().saturating_mul(b.len()) <= MAX_PAIRS;
+    a.closed && b.closed && is_cheap && runs_along(a, b) && runs_along(b, a)
+}
+
 fn with(mut file: [i64; 4], side: usize, number: i64) -> [i64; 4] {
     file[side] = number;
     file
@@ -145,6 +163,20 @@ mod tests {
         assert!(seen.is_new(&path(true)));
         assert!(!seen.is_new(&moved(1e-15)) && !seen.is_new(&moved(-1e-15)));
         assert!(seen.is_new(&moved(1e-12)));
+    }
+
+    #[test]
+    fn a_circle_begun_elsewhere_is_a_copy_up_to_the_reach() {
+        let circle = |x: f64| ArcSpline::circle(crate::geom::point(x, 0.0), 2.0);
+        let turned = |x: f64| {
+            let [a, b] = [(1.2, 1.6), (-1.2, -1.6)].map(|(u, v)| (u + x, v, 1.0));
+            ArcSpline::closed([a, b])
+        };
+        let mut seen = Seen::new(Grain::of(&circle(0.0).bounds()), 0.01);
+        assert!(seen.is_new(&circle(0.0)) && !seen.is_new(&turned(0.0)) && !seen.is_new(&turned(0.006)));
+        assert!(seen.is_new(&turned(0.02)));
+        let diamond = [(2.0, 0.0, 0.0), (0.0, 2.0, 0.0), (-2.0, 0.0, 0.0), (0.0, -2.0, 0.0)];
+        assert!(seen.is_new(&ArcSpline::closed(diamond)));
     }
 
     #[test]

@@ -102,7 +102,12 @@ fn change_groups(groups: &mut Vec<Group>, chance: &mut Chance) {
                 [0, 2, 5, 8, 10, 41, 66, 70, 91, 230, 999, 5000][chance.below(12)].to_string()
         }
         4 => groups.truncate(range.start),
-        5 => drop(groups.drain(records(groups)[chance.below(records(groups).len())].clone())),
+        5 => {
+            let records = records(groups);
+            if !records.is_empty() {
+                drop(groups.drain(chance.of(&records)));
+            }
+        }
         6 => {
             // Blank lines shift what is a code and what a value.
             let half = groups[range.start].1.clone();

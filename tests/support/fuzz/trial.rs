@@ -101,9 +101,7 @@ fn axis(pocket: &Pocket, tolerance: medial::Tolerance) -> Result<Mat, String> {
 /// Judges levels; answers how many.
 fn levels(pocket: &Pocket, mat: &Mat, chance: &mut Chance) -> Result<usize, String> {
     let largest = mat.largest_disk().radius;
-    let vertices = mat.vertices();
-    let at_vertex = vertices[chance.below(vertices.len())].disk.radius;
-    let distances = [0.03 * largest, chance.share() * largest, 0.9 * largest, largest, at_vertex];
+    let distances = [0.03 * largest, chance.share() * largest, chance.share() * largest, 0.9 * largest];
     for d in distances {
         let level = mat.level(d);
         let all: Vec<ArcSpline> = level.loops.iter().chain(&level.ridges).cloned().collect();
