@@ -146,3 +146,38 @@ fn the_merge_tree_counts_the_loops_of_every_level() {
         }
     }
 }
+
+/// A large plate with rounded cutouts as a drawing program writes them, to eight decimals: corners of
+/// a thousandth of a degree, at elements that are short beside the plate and far above round-off.
+#[test]
+fn rounded_cutouts_written_with_few_decimals_have_right_levels() {
+    let cut = |x: f64| (x * 1e8).round() * 1e-8;
+    let mut loops = vec![shapes::polygon(
+        [(-3.1, -2.7), (283.3, -2.7), (283.3, 111.9), (-3.1, 111.9)].map(|(x, y)| medial::point(x, y)),
+    )];
+    for i in 0..70 {
+        let (x, y, half): (f64, f64, f64) =
+            (19.05 * (i % 14) as f64 + 9.525, 19.05 * (i / 14) as f64 + 9.525, 6.98765);
+        let turned = medial::Vector::from_angle(0.01 * i as f64);
+        let corners = [(1.0, 1.0), (1.0, -1.0), (-1.0, -1.0), (-1.0, 1.0)].map(|(a, b)| (a * half, b * half));
+        let vertices = corners.into_iter().enumerate().flat_map(|(k, (a, b)): (usize, (f64, f64))| {
+            let r = 0.5f64;
+            let (sa, sb) = (a.signum() * r, b.signum() * r);
+            let ends = if k % 2 == 0 { [(a - sa, b), (a, b - sb)] } else { [(a, b - sb), (a - sa, b)] };
+            [(ends[0], -0.41421356), (ends[1], 0.0)]
+        });
+        let placed = vertices.map(|((a, b), bulge)| {
+            let p = turned * a + turned.left() * b;
+            (cut(x + p.x), cut(y + p.y), bulge)
+        });
+        loops.push(ArcSpline::closed(placed));
+    }
+    let mat = axis(&loops);
+    mat.check().expect("a good axis");
+    for d in [0.3, 0.7251, 1.1, 1.45, 2.03, 2.61] {
+        let level = mat.level(d);
+        let all: Vec<ArcSpline> = level.loops.iter().chain(&level.ridges).cloned().collect();
+        let report = verify::level(&loops, d, &all);
+        assert!(report.is_right(), "{d}: {report:?}");
+    }
+}

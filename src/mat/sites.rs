@@ -264,21 +264,24 @@ fn split_at_extreme(parts: &mut Vec<Part>, direction: Vector) {
 /// Turns elements near the round-off, which have no direction of their own, to that of a longer
 /// neighbor, one after the other. Their tilt would hide a corner between the neighbors: either joint
 /// looks smooth for what is known of the short element, but both together need not be.
+///
+/// Near the round-off are elements that noise tilts by more than their length: `c noise / l > l`.
+/// Longer ones keep their own direction, or levels beside them would be off by its change.
 fn lend_directions(parts: &mut [Part], noise: f64) {
     let n = parts.len();
+    let sliver = (TANGENT_ROUNDINGS * noise).sqrt();
     let beside = |i: usize, forward: bool| if forward { (i + 1) % n } else { (i + n - 1) % n };
-    let tilt =
-        |parts: &[Part], from: usize, forward: bool| {
-            let to = beside(from, forward);
-            let (before, after) = if forward { (from, to) } else { (to, from) };
-            let angle = parts[before].end.normal.cross(parts[after].start.normal);
-            let is_whole = parts[to].last && parts[beside(to, false)].last;
-            let is_round_off =
-                joint_between(&parts[before], &parts[after], noise) == Joint::Smooth { same_circle: false };
-            let is_seen = angle.abs() > TANGENT_ROUNDINGS * noise * (1.0 + parts[from].chord.recip());
-            (is_whole && is_round_off && is_seen && parts[to].chord < parts[from].chord)
-                .then_some(if forward { -angle } else { angle })
-        };
+    let tilt = |parts: &[Part], from: usize, forward: bool| {
+        let to = beside(from, forward);
+        let (before, after) = if forward { (from, to) } else { (to, from) };
+        let angle = parts[before].end.normal.cross(parts[after].start.normal);
+        let is_whole = parts[to].last && parts[beside(to, false)].last;
+        let is_round_off =
+            joint_between(&parts[before], &parts[after], noise) == Joint::Smooth { same_circle: false };
+        let is_seen = angle.abs() > TANGENT_ROUNDINGS * noise * (1.0 + parts[from].chord.recip());
+        (is_whole && is_round_off && is_seen && parts[to].chord < parts[from].chord.min(sliver))
+            .then_some(if forward { -angle } else { angle })
+    };
     let lends = |&i: &usize| tilt(parts, i, true).is_some() || tilt(parts, i, false).is_some();
     let mut lenders: Vec<usize> = (0..n).filter(lends).collect();
     lenders.sort_by(|&i, &j| parts[j].chord.total_cmp(&parts[i].chord));
