@@ -154,6 +154,15 @@ impl Element {
         Element { start: self.end, end: self.start, bulge: 0.0 - self.bulge }
     }
 
+    /// Largest distance of a place of the element from `p`.
+    pub fn farthest(&self, p: Point) -> f64 {
+        let ends = self.start.distance(p).max(self.end.distance(p));
+        // On a circle the farthest place lies beyond the center.
+        let beyond = self.center().map(|(center, radius)| (center + (center - p), radius));
+        let through = beyond.filter(|(opposite, _)| (0.0..=1.0).contains(&self.parameter(*opposite)));
+        through.map_or(ends, |(opposite, radius)| ends.max(0.5 * opposite.distance(p) + radius))
+    }
+
     /// Parameter of the place on the full circle or line nearest to `p`: in 0..=1 on the element.
     /// Outside, an arc answers the parameter of the turn that is the shorter way from the element.
     pub fn parameter(&self, p: Point) -> f64 {
@@ -277,6 +286,14 @@ mod tests {
 
     fn near(a: f64, b: f64) -> bool {
         (a - b).abs() <= 16.0 * f64::EPSILON * (1.0 + a.abs().max(b.abs()))
+    }
+
+    #[test]
+    fn the_farthest_place_of_an_arc_may_lie_beyond_its_center() {
+        let half = Element::arc(point(-1.0, 0.0), point(1.0, 0.0), 1.0);
+        assert!((half.farthest(point(0.0, 3.0)) - 4.0).abs() < 1e-15);
+        assert!((half.farthest(point(0.0, -3.0)) - 10f64.sqrt()).abs() < 1e-15);
+        assert_eq!(Element::segment(point(0.0, 0.0), point(3.0, 4.0)).farthest(point(3.0, 4.0)), 5.0);
     }
 
     #[test]

@@ -18,3 +18,4 @@ mod trace;
 
 pub use level::Level;
 pub use merge::{MergeTree, Part};
+pub(crate) use ridge::parallel_bulge;

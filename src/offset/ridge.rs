@@ -2,6 +2,7 @@
 
 use super::trace::Tracer;
 use crate::geom::{ArcSpline, Vertex};
+use crate::mat::Mat;
 use std::collections::BTreeMap;
 
 /// A ridge, in job units.
@@ -84,19 +85,29 @@ impl Tracer<'_> {
         ridges
     }
 
-    /// A vertex of a ridge with the bulge of the way that leaves it. Along a ridge the axis is the
-    /// offset of its sites, and turns with their normals.
+    /// A vertex of a ridge with the bulge of the way that leaves it.
     fn vertex(&self, at: u32, way: Way) -> Vertex {
-        let edge = &self.mat.graph.edges[way.edge as usize];
-        let piece = &self.mat.graph.pieces[edge.pieces[usize::from(way.backward)] as usize].piece;
-        let site = &self.mat.sites[piece.site as usize];
-        let [here, there] = [at, way.to].map(|v| self.mat.graph.disks[v as usize].center);
-        let turn = piece.from.normal.angle_to(piece.to.normal);
-        let radius = if site.is_vertex { self.d } else { (site.curvature.recip() - self.d).abs() };
-        let arc_chord = (2.0 * radius * (0.5 * turn).sin()).abs();
-        // Edges as short as round-off may have any normals; only what is an arc is made one.
-        let is_arc = (arc_chord - here.distance(there)).abs() <= 0.5 * arc_chord;
-        let bulge = if is_arc && radius.is_finite() { (0.25 * turn).tan() } else { 0.0 };
+        let here = self.mat.graph.disks[at as usize].center;
+        let bulge = parallel_bulge(self.mat, way.edge, way.backward).unwrap_or(0.0);
         Vertex { point: self.mat.frame.leave(here), bulge }
     }
+}
+
+/// The bulge of an edge of the axis along which the radius is constant, as it is between parallel
+/// walls; `None` where it is not. There the axis is the offset of its sites, and turns with their
+/// normals.
+pub(crate) fn parallel_bulge(mat: &Mat, edge: u32, backward: bool) -> Option<f64> {
+    let edge = &mat.graph.edges[edge as usize];
+    let [here, there] = edge.disks.map(|d| &mat.graph.disks[d as usize]);
+    if (here.radius - there.radius).abs() > 2.0 * mat.graph.error {
+        return None;
+    }
+    let piece = &mat.graph.pieces[edge.pieces[usize::from(backward)] as usize].piece;
+    let site = &mat.sites[piece.site as usize];
+    let turn = piece.from.normal.angle_to(piece.to.normal);
+    let radius = if site.is_vertex { here.radius } else { (site.curvature.recip() - here.radius).abs() };
+    let arc_chord = (2.0 * radius * (0.5 * turn).sin()).abs();
+    // Edges as short as round-off may have any normals; only what is an arc is made one.
+    let is_arc = (arc_chord - here.center.distance(there.center)).abs() <= 0.5 * arc_chord;
+    Some(if is_arc && radius.is_finite() { (0.25 * turn).tan() } else { 0.0 })
 }

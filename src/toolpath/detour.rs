@@ -14,12 +14,13 @@
 //! wall, and what the tool meets on the other side is no wider. As the radius is monotone along an
 //! edge, the places at one level on the spokes of one side of it lie all on one pass: one look decides.
 
+use super::indexed::Indexed;
 use super::nest::Nest;
 use super::roads::{Roads, Spot};
-use crate::geom::{ArcSpline, Bounds, Element, Point};
+use crate::geom::{ArcSpline, Element, Point};
 use crate::mat::Mat;
 use crate::offset::Level;
-use rstar::{AABB, PointDistance, RTree, RTreeObject};
+use rstar::RTree;
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashMap};
 
@@ -290,7 +291,7 @@ impl<'a> Detours<'a> {
         if near.element.distance(p) > self.slack {
             return None;
         }
-        nest.passes.binary_search_by_key(&(level, near.index), |pass| (pass.level, pass.index)).ok()
+        nest.pass(level, near.index)
     }
 }
 
@@ -329,30 +330,7 @@ fn index(level: &Level) -> RTree<Indexed> {
         let lone = spline.vertices.first().filter(|_| spline.is_empty());
         let lone = lone.map(|v| Element::segment(v.point, v.point));
         let all: Vec<Element> = spline.elements().chain(lone).collect();
-        all.into_iter().map(move |element| Indexed { element, index, bounds: element.bounds() })
+        all.into_iter().map(move |element| Indexed::new(element, index))
     };
     RTree::bulk_load(splines.flat_map(elements).collect())
-}
-
-/// An element of a loop or ridge.
-struct Indexed {
-    element: Element,
-    /// Index of the loop in its level; ridges follow the loops.
-    index: usize,
-    bounds: Bounds,
-}
-
-impl RTreeObject for Indexed {
-    type Envelope = AABB<[f64; 2]>;
-
-    fn envelope(&self) -> Self::Envelope {
-        AABB::from_corners(self.bounds.min.into(), self.bounds.max.into())
-    }
-}
-
-impl PointDistance for Indexed {
-    fn distance_2(&self, p: &[f64; 2]) -> f64 {
-        let distance = self.element.distance((*p).into());
-        distance * distance
-    }
 }

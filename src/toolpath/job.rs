@@ -161,9 +161,17 @@ impl Job {
         0.5 * self.tool
     }
 
-    /// The step that is used: at most half the tool, where nothing stays uncut between two levels.
+    /// The step that is used: the one asked for, less where neighboring cuts would not overlap.
     pub fn used_step(&self) -> f64 {
-        if self.tool > 0.0 { self.step.min(self.radius()) } else { self.step }
+        if self.tool > 0.0 { self.step.min(self.tool - self.overlap()) } else { self.step }
+    }
+
+    /// Least width on which neighboring cuts overlap, so that nothing stands between them by
+    /// round-off, or where chords stand for a curve of the axis.
+    pub(super) fn overlap(&self) -> f64 {
+        /// Share of the tool's diameter: too little to matter for the time, far more than round-off.
+        const OVERLAP: f64 = 1.0 / 256.0;
+        OVERLAP * self.tool
     }
 
     /// Distance of the wall passes from the drawn wall.

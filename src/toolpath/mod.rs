@@ -17,16 +17,21 @@
 
 mod approach;
 mod course;
+mod crest;
 mod cutter;
 mod detour;
+mod indexed;
 mod job;
 mod moves;
 mod nest;
 mod path;
 mod plan;
 mod roads;
+mod run;
 #[cfg(test)]
 mod tests;
+mod tour;
+mod trim;
 mod warning;
 
 pub use cutter::Totals;

@@ -10,10 +10,11 @@
 //! branch first, gives the order: neighbors come in a chain unless loops branch.
 
 use super::Start;
-use crate::geom::{Bounds, Element, Point};
+use super::indexed::Indexed;
+use crate::geom::Point;
 use crate::offset::Level;
 use rayon::prelude::*;
-use rstar::{AABB, PointDistance, RTree, RTreeObject};
+use rstar::RTree;
 
 /// One loop or ridge of one level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,6 +70,11 @@ impl Nest {
             }
         }
         Nest { passes, inner, outer }
+    }
+
+    /// The pass of a loop or ridge of a level.
+    pub fn pass(&self, level: usize, index: usize) -> Option<usize> {
+        self.passes.binary_search_by_key(&(level, index), |pass| (pass.level, pass.index)).ok()
     }
 
     /// The passes in the order of cutting.
@@ -142,7 +148,7 @@ fn doors_outward(level: &Level, outside: &Level, first: usize, slack: f64) -> Ve
                     if distance > nearest + slack {
                         break;
                     }
-                    doors.push(Door { pass: first + found.pass, at, length });
+                    doors.push(Door { pass: first + found.index, at, length });
                 }
             };
             for e in spline.elements() {
@@ -165,32 +171,12 @@ fn widest(mut doors: Vec<Door>) -> Vec<Door> {
 
 /// The loops of a level, for finding the nearest.
 pub(super) fn index(level: &Level) -> RTree<Indexed> {
-    let loops = level.loops.iter().enumerate().flat_map(|(pass, spline)| {
-        spline.elements().map(move |element| Indexed { element, pass, bounds: element.bounds() })
-    });
+    let loops = level
+        .loops
+        .iter()
+        .enumerate()
+        .flat_map(|(pass, spline)| spline.elements().map(move |element| Indexed::new(element, pass)));
     RTree::bulk_load(loops.collect())
-}
-
-/// An element of a pass in the index.
-pub(super) struct Indexed {
-    pub element: Element,
-    pass: usize,
-    bounds: Bounds,
-}
-
-impl RTreeObject for Indexed {
-    type Envelope = AABB<[f64; 2]>;
-
-    fn envelope(&self) -> Self::Envelope {
-        AABB::from_corners(self.bounds.min.into(), self.bounds.max.into())
-    }
-}
-
-impl PointDistance for Indexed {
-    fn distance_2(&self, p: &[f64; 2]) -> f64 {
-        let distance = self.element.distance((*p).into());
-        distance * distance
-    }
 }
 
 #[cfg(test)]

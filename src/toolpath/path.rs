@@ -2,7 +2,7 @@
 
 use super::cutter::Totals;
 use super::job::MAX_HEIGHTS;
-use super::plan::{IsClear, MAX_MOVES, Planner};
+use super::plan::{Crests, IsClear, MAX_MOVES, Planner};
 use super::{Job, Move, Warning};
 use crate::error::Error;
 use crate::geom::Element;
@@ -40,6 +40,11 @@ pub struct PocketPath {
     pub moves: Range<usize>,
     /// Loops and ridges cut, counted once for each height.
     pub passes: usize,
+    /// Passes along parts of the axis, for what stands between levels more than half the tool apart;
+    /// counted once for each height.
+    pub crests: usize,
+    /// Their length, the ways there and back included.
+    pub crest_length: f64,
     /// Largest tool diameter that fits, less the stock to leave on both sides.
     pub largest_tool: f64,
     /// Area that the tool cannot reach, the stock to leave included.
@@ -106,7 +111,9 @@ impl Job {
     ) -> Result<(), Error> {
         let before = planner.cutter.moves.len();
         if self.tool > 0.0 && own.machined {
+            planner.crests = Crests::default();
             own.passes = planner.pocket(&levels, is_clear, Some(mat))?;
+            (own.crests, own.crest_length) = (planner.crests.count, planner.crests.length);
         }
         own.moves = before..planner.cutter.moves.len();
         own.levels = levels;

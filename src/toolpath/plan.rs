@@ -8,9 +8,11 @@
 //! **Does not** shorten the way between pockets or between branches of a pocket.
 
 use super::course::Course;
+use super::crest::{Crest, Reach};
 use super::cutter::Cutter;
 use super::detour::Detours;
-use super::nest::{Indexed, Nest, Pass, index};
+use super::indexed::Indexed;
+use super::nest::{Nest, Pass, index};
 use super::{Direction, Entry, Job, Start, Warning};
 use crate::error::Error;
 use crate::geom::{ArcSpline, Bounds, Element, Point};
@@ -32,8 +34,19 @@ pub(super) type IsClear<'a> = dyn Fn(&Element, f64) -> bool + 'a;
 pub(super) struct Planner<'a> {
     pub job: &'a Job,
     pub cutter: Cutter<'a>,
+    /// What was run along the axis so far.
+    pub crests: Crests,
     /// Ramps and plunges that stand for another kind of entry, and the first of these plunges.
     fallbacks: Option<(usize, usize, Option<Point>)>,
+}
+
+/// Excursions along the axis, for what stands between passes.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Crests {
+    /// How many, at all heights.
+    pub count: usize,
+    /// Their length, the ways there and back included.
+    pub length: f64,
 }
 
 /// What is known of the pocket at hand.
@@ -44,6 +57,9 @@ pub(super) struct Ground<'a> {
     /// Links along the axis, if there is one.
     pub detours: Option<Detours<'a>>,
     pub slack: f64,
+    pub crests: Vec<Crest>,
+    /// The crests that each pass cuts.
+    pub crests_of: Vec<Vec<usize>>,
     /// Passes cut at the height at hand.
     pub done: Vec<bool>,
     /// The pass in whose end the tool stands.
@@ -62,7 +78,7 @@ pub(super) struct Height {
 impl<'a> Planner<'a> {
     /// A planner without moves yet.
     pub fn new(job: &'a Job) -> Planner<'a> {
-        Planner { job, cutter: Cutter::new(job), fallbacks: None }
+        Planner { job, cutter: Cutter::new(job), crests: Crests::default(), fallbacks: None }
     }
 
     /// Cuts a pocket and answers the number of passes. Without its axis, links are straight.
@@ -83,13 +99,17 @@ impl<'a> Planner<'a> {
         let (done, begin) = (vec![false; order.len()], vec![None; order.len()]);
         let last = self.last_passes(levels, &nest);
         let detours = mat.map(|mat| Detours::new(mat, levels, slack));
-        let mut ground = Ground { levels, nest, is_clear, detours, slack, done, last: None, begin };
+        let crests = mat.map_or(Vec::new(), |mat| self.crests(mat, levels, &nest, slack));
+        let crests_of = vec![Vec::new(); order.len()];
+        let mut ground =
+            Ground { levels, nest, is_clear, detours, slack, crests, crests_of, done, last: None, begin };
         let needed = order.into_iter().filter(|&p| !ground.is_covered(p));
         let (wall, rough): (Vec<usize>, Vec<usize>) = needed.partition(|&p| last[p]);
         if self.job.start == Start::Outside {
             ground.plan_beginnings(&rough);
             ground.plan_beginnings(&wall);
         }
+        ground.settle_crests(rough.iter().chain(&wall));
         let heights = self.job.heights();
         let mut surface = self.job.top;
         for &z in &heights {
@@ -124,6 +144,12 @@ impl<'a> Planner<'a> {
         nest.passes.iter().map(is_last).collect()
     }
 
+    /// What stands between passes, if they are farther apart than the tool's radius.
+    fn crests(&self, mat: &Mat, levels: &[Level], nest: &Nest, slack: f64) -> Vec<Crest> {
+        let (tool_radius, flat) = (self.job.radius(), self.job.overlap());
+        Crest::all(mat, &Reach { levels, nest, tool_radius, flat, slack })
+    }
+
     fn passes(&mut self, ground: &mut Ground, order: &[usize], height: Height) -> Result<(), Error> {
         for (i, &pass) in order.iter().enumerate() {
             self.pass(ground, pass, &order[i + 1..], height)?;
@@ -146,9 +172,7 @@ impl<'a> Planner<'a> {
             Some(linked) => linked,
             None => self.approach(ground, (pass, rest), course, height)?,
         };
-        for e in &course.elements {
-            self.cutter.cut(e);
-        }
+        self.run(ground, pass, &course)?;
         ground.done[pass] = true;
         ground.last = Some(pass);
         Ok(())
@@ -239,8 +263,22 @@ impl Ground<'_> {
         level.loops.get(index).unwrap_or_else(|| &level.ridges[index - level.loops.len()])
     }
 
-    /// Whether a pass is a single place with a loop round it: all that the tool cuts there is no
-    /// farther from that loop than the step, and plunging there would only harm.
+    /// Each crest is cut with the last of the passes on its sides.
+    fn settle_crests<'a>(&mut self, order: impl Iterator<Item = &'a usize>) {
+        let mut rank = vec![0; self.nest.passes.len()];
+        for (i, &pass) in order.enumerate() {
+            rank[pass] = i;
+        }
+        for (i, crest) in self.crests.iter_mut().enumerate() {
+            crest.settle(&rank, self.slack);
+            if let Some(gate) = crest.gates.first() {
+                self.crests_of[gate.pass].push(i);
+            }
+        }
+    }
+
+    /// Whether a pass is a single place with a loop round it: all that the tool cuts there is within
+    /// its reach from that loop, or part of a crest, and plunging there would only harm.
     fn is_covered(&self, pass: usize) -> bool {
         self.spline(pass).is_empty() && !self.nest.outer[pass].is_empty()
     }

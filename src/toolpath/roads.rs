@@ -4,8 +4,9 @@
 //! the distance to the wall grows as fast as can be. Where a road leads beside a wall, the spokes of
 //! that wall end on it.
 
-use crate::geom::{Point, vector};
+use crate::geom::{Element, Point, vector};
 use crate::mat::{AxisEdge, Mat, NONE};
+use crate::offset::parallel_bulge;
 
 /// Halvings that find a place on an edge: all digits of a parameter in 0..=1.
 const HALVINGS: usize = 52;
@@ -64,6 +65,11 @@ impl<'a> Roads<'a> {
         Roads { mat, edges, vertices, first, incident, by_site }
     }
 
+    /// How many edges there are.
+    pub fn edge_count(&self) -> u32 {
+        self.edges.len() as u32
+    }
+
     /// Edges at a vertex.
     pub fn at(&self, vertex: u32) -> &[u32] {
         let range = self.first[vertex as usize] as usize..self.first[vertex as usize + 1] as usize;
@@ -104,6 +110,25 @@ impl<'a> Roads<'a> {
     pub fn on_spoke(&self, edge: u32, side: usize, p: Point, d: f64) -> Point {
         let (s, n) = self.site(edge, side).carrier_distance(self.mat.frame.enter(p));
         p - n * (self.mat.frame.length_out(s) - d)
+    }
+
+    /// The offset at distance `d` of the wall on a side of an edge, between the spokes of two spots.
+    pub fn offset(&self, edge: u32, side: usize, t: [f64; 2], d: f64) -> Element {
+        let site = self.site(edge, side);
+        let spokes = t.map(|t| site.carrier_distance(self.mat.frame.enter(self.place(Spot { edge, t }))).1);
+        let [start, end] = t.map(|t| self.on_spoke(edge, side, self.place(Spot { edge, t }), d));
+        let is_straight = site.curvature == 0.0 && !site.is_vertex;
+        let turn = if is_straight { 0.0 } else { spokes[0].angle_to(spokes[1]) };
+        Element::arc(start, end, (0.25 * turn).tan())
+    }
+
+    /// Control points of a stretch of an edge, which lies in their convex hull.
+    pub fn hull(&self, edge: u32, from: f64, to: f64) -> [Point; 3] {
+        let e = &self.edges[edge as usize];
+        [(from, from), (from, to), (to, to)].map(|(u, v)| {
+            let [x, y, w] = blossom(e, u, v);
+            Point { x: x / w, y: y / w }
+        })
     }
 
     fn distance(&self, edge: u32, side: usize, p: Point) -> f64 {
@@ -173,6 +198,20 @@ impl<'a> Roads<'a> {
         Some((Spot { edge, t: side as f64 }, side))
     }
 
+    /// A stretch of an edge as elements that leave it by `flat` at most: an arc or a segment where the
+    /// radius is constant along all of it, else chords.
+    pub fn way(&self, edge: u32, [from, to]: [f64; 2], flat: f64) -> Vec<Element> {
+        let start = self.place(Spot { edge, t: from });
+        if [from, to] == [0.0, 1.0]
+            && let Some(bulge) = parallel_bulge(self.mat, edge, false)
+        {
+            return vec![Element::arc(start, self.place(Spot { edge, t: to }), bulge)];
+        }
+        let places = self.chords(edge, from, to, flat);
+        let starts = std::iter::once(start).chain(places.iter().copied());
+        starts.zip(&places).map(|(a, &b)| Element::segment(a, b)).collect()
+    }
+
     /// A stretch of an edge as a chain of chords that leave it by `flat` at most, without its first
     /// place.
     pub fn chords(&self, edge: u32, from: f64, to: f64, flat: f64) -> Vec<Point> {
@@ -221,7 +260,7 @@ fn shoulder(e: &AxisEdge, a: f64, b: f64) -> f64 {
 }
 
 /// Where a predicate that holds from 0 on ceases to hold.
-fn bisect(holds: impl Fn(f64) -> bool) -> f64 {
+pub(super) fn bisect(holds: impl Fn(f64) -> bool) -> f64 {
     if holds(1.0) {
         return 1.0;
     }

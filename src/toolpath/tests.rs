@@ -290,7 +290,10 @@ fn levels_keep_their_distances_and_end_where_nothing_is_left() {
     assert_eq!(distances(&job()), [2.0, 4.0, 6.0, 8.0]);
     assert_eq!(distances(&Job { stock: 0.5, ..job() }), [2.5, 4.5, 6.5, 8.5]);
     assert_eq!(distances(&Job { finish: 1.0, ..job() }), [2.0, 3.0, 5.0, 7.0, 9.0]);
-    assert_eq!(distances(&Job { step: 3.0, ..job() }), [2.0, 4.0, 6.0, 8.0]);
+    assert_eq!(distances(&Job { step: 3.0, ..job() }), [2.0, 5.0, 8.0]);
+    // Cuts a whole tool apart would only touch.
+    let whole = distances(&Job { step: 4.0, ..job() });
+    assert!(whole[1] < 6.0 && whole[1] > 5.95);
     let too_many = Job { step: 1e-9, ..job() }.levels_up_to(10.0, &square_level);
     assert!(matches!(too_many, Err(crate::Error::Effort { .. })));
 }

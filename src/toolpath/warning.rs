@@ -10,7 +10,7 @@ use std::fmt;
 #[serde(tag = "kind", rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Warning {
-    /// The step was reduced so that nothing stays uncut between two levels.
+    /// The step was reduced so that neighboring cuts overlap.
     StepReduced {
         /// As asked.
         asked: f64,
@@ -100,7 +100,7 @@ impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Warning::StepReduced { asked, used } => {
-                write!(f, "the step of {asked} is reduced to {used}, half the tool")
+                write!(f, "the step of {asked} is reduced to {used}, so that neighboring cuts overlap")
             }
             Warning::ToolTooLarge { largest, .. } if *largest > 0.0 => write!(
                 f,

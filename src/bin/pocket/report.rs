@@ -34,6 +34,8 @@ struct PocketReport {
     unreachable_area: f64,
     narrowest_neck: Option<f64>,
     passes: usize,
+    crests: usize,
+    crest_length: f64,
     machined: bool,
 }
 
@@ -56,6 +58,8 @@ impl<'a> Report<'a> {
                     unreachable_area: path.unreachable_area,
                     narrowest_neck: path.narrowest_neck,
                     passes: path.passes,
+                    crests: path.crests,
+                    crest_length: path.crest_length,
                     machined: path.machined,
                 })
                 .collect(),
@@ -100,8 +104,12 @@ impl<'a> Report<'a> {
                 let _ = write!(text, ", narrowest neck {neck:.4} {unit}");
             }
             let _ = if p.machined {
-                let passes = counted(p.passes, "pass", "passes");
-                writeln!(text, ", {passes}, {:.4} {unit}2 out of reach", p.unreachable_area)
+                let _ = write!(text, ", {}", counted(p.passes, "pass", "passes"));
+                if p.crests > 0 {
+                    let crests = counted(p.crests, "pass", "passes");
+                    let _ = write!(text, " and {crests} along the axis ({:.1} {unit})", p.crest_length);
+                }
+                writeln!(text, ", {:.4} {unit}2 out of reach", p.unreachable_area)
             } else {
                 writeln!(text, ", left out")
             };
