@@ -162,7 +162,9 @@ fn the_json_report_has_the_keys_of_its_contract() {
     assert_eq!(keys(&report), sorted("source units tool step tolerance pockets path verify warnings"));
     assert_eq!(
         keys(&report["pockets"][0]),
-        sorted("area islands arcs largest_tool unreachable_area narrowest_neck passes machined")
+        sorted(
+            "area islands arcs largest_tool unreachable_area narrowest_neck passes crests crest_length machined"
+        )
     );
     assert_eq!(keys(&report["path"]), sorted("cut_length rapid_length retracts arcs lines minutes"));
     assert_eq!((report["source"].as_str(), report["units"].as_str()), (Some("part.dxf"), Some("mm")));
@@ -367,12 +369,12 @@ fn level_sets_alone_need_no_tool() {
 }
 
 #[test]
-fn a_step_above_half_the_tool_is_reduced_and_said() {
+fn what_a_step_above_half_the_tool_leaves_is_cut_and_said() {
     let desk = Desk::new(&plate());
-    desk.pocket(&["part.dxf", "--tool", "6", "--step", "80%"])
-        .assert()
-        .success()
-        .stderr(contains("reduced").and(contains("step 3 mm")));
+    let run = |step: &str| desk.pocket(&["part.dxf", "--tool", "6", "--step", step]).assert().success();
+    run("80%").stderr(contains("step 4.8 mm").and(contains("passes along the axis")));
+    run("50%").stderr(contains("along the axis").not());
+    run("100%").stderr(contains("reduced"));
 }
 
 #[test]
@@ -409,8 +411,8 @@ fn an_outline_with_everything_in_it_may_be_skipped() {
 
 #[test]
 fn all_entries_that_are_not_as_asked_make_one_warning() {
-    let desk = Desk::new(&plate());
-    let run = desk.pocket(&["part.dxf", "--tool", "6", "--step", "40%", "--skip-layer", "none"]).assert();
+    let desk = Desk::new(&drawing(&[rectangle(0.0, 0.0, 60.0, 6.8), rectangle(0.0, 10.0, 60.0, 16.8)]));
+    let run = desk.pocket(&["part.dxf", "--tool", "6", "--step", "40%", "--depth", "9"]).assert();
     let told = String::from_utf8(run.success().get_output().stderr.clone()).unwrap();
     assert_eq!(told.matches("instead of entries by helix").count(), 1, "{told}");
 }

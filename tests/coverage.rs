@@ -2,7 +2,6 @@
 //! the axis, held against every cut at the floor.
 
 #[path = "support/shapes.rs"]
-#[allow(dead_code)]
 mod shapes;
 
 use medial::{

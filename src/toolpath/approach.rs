@@ -40,9 +40,10 @@ impl Planner<'_> {
         height: Height,
     ) -> Result<Course, Error> {
         let Some(Approach { link, begun }) = self.door(ground, pass, &course) else {
-            let place = ground.begin[pass].or_else(|| ground.toward(pass, rest.first().copied()));
+            let planned = ground.begin[pass];
+            let place = planned.or_else(|| ground.toward(pass, rest.first().copied()));
             let place = course.nearest(place.unwrap_or_else(|| course.calm_place()));
-            return self.enter(course.begun_at(place, ground.slack), height);
+            return self.enter(ground, course, (place, planned.is_some()), height);
         };
         let as_long = |p: Point| self.cutter.minutes_over(p, height.z) * self.job.feed;
         let lift = self.cutter.at().map_or(0.0, as_long);
@@ -112,7 +113,8 @@ impl Ground<'_> {
     /// The places of a link along the axis from the end of the last pass to another one.
     fn detour(&mut self, from: Point, to: usize, shorter_than: f64, flat: f64) -> Option<Vec<Point>> {
         let (nest, done, last) = (&self.nest, &self.done[..], self.last?);
-        self.detours.as_mut()?.find(&Wish { nest, done, from, last, to, shorter_than, flat })
+        let roads = self.roads.as_ref()?;
+        self.detours.as_mut()?.find(roads, &Wish { nest, done, from, last, to, shorter_than, flat })
     }
 
     /// How much longer than the step, in all, the links of the chain inward from a pass become when it

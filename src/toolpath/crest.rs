@@ -19,7 +19,6 @@ use super::roads::{Roads, Spot};
 use super::tour::round_tour;
 use super::trim::{End, Standing};
 use crate::geom::{Element, Point};
-use crate::mat::Mat;
 use crate::offset::Level;
 use rstar::RTree;
 use std::collections::HashMap;
@@ -73,18 +72,17 @@ impl Part {
 
 impl Crest {
     /// All crests, outermost first.
-    pub fn all(mat: &Mat, reach: &Reach) -> Vec<Crest> {
+    pub fn all(roads: &Roads, reach: &Reach) -> Vec<Crest> {
         let is_apart = |k: usize| reach.top(k) - reach.levels[k].distance > reach.tool_radius + reach.slack;
         if !(0..reach.levels.len()).any(is_apart) {
             return Vec::new();
         }
-        let roads = Roads::new(mat);
-        let parts = reach.parts(&roads);
+        let parts = reach.parts(roads);
         let mut crests: Vec<Crest> = parts
             .chunk_by(|a, b| a.level == b.level)
-            .flat_map(|parts| connected(&roads, parts, reach))
+            .flat_map(|parts| connected(roads, parts, reach))
             .collect();
-        crests.extend(reach.lone_places(&roads));
+        crests.extend(reach.lone_places(roads));
         crests.sort_by_key(|c| c.level);
         for same in crests.chunk_by_mut(|a, b| a.level == b.level) {
             let tree = index(&reach.levels[same[0].level]);

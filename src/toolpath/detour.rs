@@ -18,7 +18,6 @@ use super::indexed::Indexed;
 use super::nest::Nest;
 use super::roads::{Roads, Spot};
 use crate::geom::{ArcSpline, Element, Point};
-use crate::mat::Mat;
 use crate::offset::Level;
 use rstar::RTree;
 use std::cmp::Reverse;
@@ -29,11 +28,9 @@ const MAX_VERTICES: usize = 4096;
 
 /// Finds links along the axis of one pocket.
 pub(super) struct Detours<'a> {
-    mat: &'a Mat,
     levels: &'a [Level],
     /// Round-off of a place of a level.
     slack: f64,
-    roads: Option<Roads<'a>>,
     index: Vec<Option<RTree<Indexed>>>,
     /// The pass of a level on a side of an edge.
     beside: HashMap<(u32, usize, usize), Option<usize>>,
@@ -70,21 +67,14 @@ struct Step {
 }
 
 impl<'a> Detours<'a> {
-    /// The links over this axis; nothing is computed yet.
-    pub fn new(mat: &'a Mat, levels: &'a [Level], slack: f64) -> Detours<'a> {
+    /// The links between these levels; nothing is computed yet.
+    pub fn new(levels: &'a [Level], slack: f64) -> Detours<'a> {
         let index = levels.iter().map(|_| None).collect();
-        Detours { mat, levels, slack, roads: None, index, beside: HashMap::new() }
+        Detours { levels, slack, index, beside: HashMap::new() }
     }
 
     /// The places of the shortest link, beginning where it is asked from.
-    pub fn find(&mut self, wish: &Wish) -> Option<Vec<Point>> {
-        let roads = self.roads.take().unwrap_or_else(|| Roads::new(self.mat));
-        let found = self.search(&roads, wish);
-        self.roads = Some(roads);
-        found
-    }
-
-    fn search(&mut self, roads: &Roads, wish: &Wish) -> Option<Vec<Point>> {
+    pub fn find(&mut self, roads: &Roads, wish: &Wish) -> Option<Vec<Point>> {
         let (spot, side) = roads.foot(wish.from)?;
         let center = roads.place(spot);
         let radius = roads.radius(spot);

@@ -20,6 +20,7 @@ mod course;
 mod crest;
 mod cutter;
 mod detour;
+mod entry;
 mod indexed;
 mod job;
 mod moves;

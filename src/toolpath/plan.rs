@@ -13,7 +13,8 @@ use super::cutter::Cutter;
 use super::detour::Detours;
 use super::indexed::Indexed;
 use super::nest::{Nest, Pass, index};
-use super::{Direction, Entry, Job, Start, Warning};
+use super::roads::Roads;
+use super::{Direction, Job, Start, Warning};
 use crate::error::Error;
 use crate::geom::{ArcSpline, Bounds, Element, Point};
 use crate::mat::Mat;
@@ -37,7 +38,7 @@ pub(super) struct Planner<'a> {
     /// What was run along the axis so far.
     pub crests: Crests,
     /// Ramps and plunges that stand for another kind of entry, and the first of these plunges.
-    fallbacks: Option<(usize, usize, Option<Point>)>,
+    pub fallbacks: Option<(usize, usize, Option<Point>)>,
 }
 
 /// Excursions along the axis, for what stands between passes.
@@ -54,7 +55,8 @@ pub(super) struct Ground<'a> {
     levels: &'a [Level],
     pub nest: Nest,
     pub is_clear: &'a IsClear<'a>,
-    /// Links along the axis, if there is one.
+    /// The axis, if it is known, and links along it.
+    pub roads: Option<Roads<'a>>,
     pub detours: Option<Detours<'a>>,
     pub slack: f64,
     pub crests: Vec<Crest>,
@@ -98,11 +100,23 @@ impl<'a> Planner<'a> {
         let order = nest.order(self.job.start);
         let (done, begin) = (vec![false; order.len()], vec![None; order.len()]);
         let last = self.last_passes(levels, &nest);
-        let detours = mat.map(|mat| Detours::new(mat, levels, slack));
-        let crests = mat.map_or(Vec::new(), |mat| self.crests(mat, levels, &nest, slack));
+        let roads = mat.map(Roads::new);
+        let detours = mat.map(|_| Detours::new(levels, slack));
+        let crests = roads.as_ref().map_or(Vec::new(), |roads| self.crests(roads, levels, &nest, slack));
         let crests_of = vec![Vec::new(); order.len()];
-        let mut ground =
-            Ground { levels, nest, is_clear, detours, slack, crests, crests_of, done, last: None, begin };
+        let mut ground = Ground {
+            levels,
+            nest,
+            is_clear,
+            roads,
+            detours,
+            slack,
+            crests,
+            crests_of,
+            done,
+            last: None,
+            begin,
+        };
         let needed = order.into_iter().filter(|&p| !ground.is_covered(p));
         let (wall, rough): (Vec<usize>, Vec<usize>) = needed.partition(|&p| last[p]);
         if self.job.start == Start::Outside {
@@ -145,9 +159,9 @@ impl<'a> Planner<'a> {
     }
 
     /// What stands between passes, if they are farther apart than the tool's radius.
-    fn crests(&self, mat: &Mat, levels: &[Level], nest: &Nest, slack: f64) -> Vec<Crest> {
+    fn crests(&self, roads: &Roads, levels: &[Level], nest: &Nest, slack: f64) -> Vec<Crest> {
         let (tool_radius, flat) = (self.job.radius(), self.job.overlap());
-        Crest::all(mat, &Reach { levels, nest, tool_radius, flat, slack })
+        Crest::all(roads, &Reach { levels, nest, tool_radius, flat, slack })
     }
 
     fn passes(&mut self, ground: &mut Ground, order: &[usize], height: Height) -> Result<(), Error> {
@@ -214,46 +228,6 @@ impl<'a> Planner<'a> {
         link.length() <= ground.apart(a, b) + ground.slack
             && (ground.is_clear)(link, self.job.wall_distance())
     }
-
-    /// Down into full stock: along the pass where it is long enough, else straight.
-    pub fn enter(&mut self, course: Course, height: Height) -> Result<Course, Error> {
-        let length = course.length();
-        if self.job.entry == Entry::Plunge || length <= self.job.radius() {
-            self.fell_back(Entry::Plunge, course.start);
-            self.cutter.over(course.start, height.surface);
-            self.cutter.plunge(height.z);
-            return Ok(course);
-        }
-        self.fell_back(Entry::Ramp, course.start);
-        let slope = self.job.ramp_angle.to_radians();
-        let run = (height.surface - height.z) / slope.tan();
-        self.afford(((run / length).ceil() as u64).saturating_mul(course.elements.len() as u64))?;
-        let ramp = if course.closed { course.tail(run) } else { to_and_fro(&course, run) };
-        let rate = self.job.feed.min(self.job.plunge_feed / slope.sin());
-        self.cutter.over(ramp.first().map_or(course.start, |e| e.start), height.surface);
-        self.cutter.plunge(height.surface);
-        let whole: f64 = ramp.iter().map(Element::length).sum();
-        let mut gone = 0.0;
-        for (i, e) in ramp.iter().enumerate() {
-            gone += e.length();
-            let z = height.surface + (height.z - height.surface) * (gone / whole).min(1.0);
-            self.cutter.follow(e, if i + 1 == ramp.len() { height.z } else { z }, rate);
-        }
-        Ok(course)
-    }
-
-    fn fell_back(&mut self, to: Entry, place: Point) {
-        if to == self.job.entry {
-            return;
-        }
-        let (ramps, plunges, first) = self.fallbacks.get_or_insert((0, 0, None));
-        if to == Entry::Plunge {
-            *plunges += 1;
-            first.get_or_insert(place);
-        } else {
-            *ramps += 1;
-        }
-    }
 }
 
 impl Ground<'_> {
@@ -315,22 +289,6 @@ impl Ground<'_> {
         let doors = self.nest.outer[pass].iter().chain(&self.nest.inner[pass]);
         doors.into_iter().find(|d| Some(d.pass) == next).map(|d| d.at)
     }
-}
-
-/// An open course run to and fro, at least as long as `run`, so that it ends where the course
-/// begins.
-fn to_and_fro(course: &Course, run: f64) -> Vec<Element> {
-    let times = (run / course.length()).ceil().max(1.0) as usize;
-    let back = || course.elements.iter().rev().map(Element::reversed);
-    let mut ramp = Vec::with_capacity(times * course.elements.len());
-    for i in (0..times).rev() {
-        if i % 2 == 0 {
-            ramp.extend(back());
-        } else {
-            ramp.extend_from_slice(&course.elements);
-        }
-    }
-    ramp
 }
 
 /// Whether all of an element lies within a distance of the passes in an index.

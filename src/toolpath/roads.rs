@@ -4,7 +4,7 @@
 //! the distance to the wall grows as fast as can be. Where a road leads beside a wall, the spokes of
 //! that wall end on it.
 
-use crate::geom::{Element, Point, vector};
+use crate::geom::{Element, Point, Vector, vector};
 use crate::mat::{AxisEdge, Mat, NONE};
 use crate::offset::parallel_bulge;
 
@@ -65,6 +65,21 @@ impl<'a> Roads<'a> {
         Roads { mat, edges, vertices, first, incident, by_site }
     }
 
+    /// From a spot along the axis, to where the radius grows no more: an edge that ends there, and the
+    /// place.
+    pub fn climb(&self, spot: Spot) -> (u32, Point) {
+        let radius = |v: u32| self.vertices[v as usize].1;
+        let higher = |edge: u32| {
+            let [a, b] = self.ends(edge);
+            if radius(a) > radius(b) { a } else { b }
+        };
+        let (mut edge, mut top) = (spot.edge, higher(spot.edge));
+        while let Some(&next) = self.at(top).iter().find(|&&e| radius(higher(e)) > radius(top)) {
+            (edge, top) = (next, higher(next));
+        }
+        (edge, self.vertices[top as usize].0)
+    }
+
     /// How many edges there are.
     pub fn edge_count(&self) -> u32 {
         self.edges.len() as u32
@@ -112,10 +127,15 @@ impl<'a> Roads<'a> {
         p - n * (self.mat.frame.length_out(s) - d)
     }
 
+    /// The direction of the spoke that ends in a place of an edge, away from the wall on a side of it.
+    pub fn spoke(&self, edge: u32, side: usize, p: Point) -> Vector {
+        self.site(edge, side).carrier_distance(self.mat.frame.enter(p)).1
+    }
+
     /// The offset at distance `d` of the wall on a side of an edge, between the spokes of two spots.
     pub fn offset(&self, edge: u32, side: usize, t: [f64; 2], d: f64) -> Element {
         let site = self.site(edge, side);
-        let spokes = t.map(|t| site.carrier_distance(self.mat.frame.enter(self.place(Spot { edge, t }))).1);
+        let spokes = t.map(|t| self.spoke(edge, side, self.place(Spot { edge, t })));
         let [start, end] = t.map(|t| self.on_spoke(edge, side, self.place(Spot { edge, t }), d));
         let is_straight = site.curvature == 0.0 && !site.is_vertex;
         let turn = if is_straight { 0.0 } else { spokes[0].angle_to(spokes[1]) };
@@ -167,7 +187,7 @@ impl<'a> Roads<'a> {
     }
 
     /// Where the ray from a place along a normal meets the edge of a piece.
-    fn meet(&self, piece: u32, p: Point, normal: crate::geom::Vector) -> Option<(Spot, usize)> {
+    fn meet(&self, piece: u32, p: Point, normal: Vector) -> Option<(Spot, usize)> {
         let edge = self.mat.graph.pieces[piece as usize].edge;
         if edge == NONE {
             return self.leaf_of(piece);
