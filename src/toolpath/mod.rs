@@ -12,8 +12,9 @@
 //! left. Loops of neighboring levels are paired (`nest`) and cut in chains, from the inside out or
 //! from the wall inward, at every height. Neighbors are joined by straight links at depth, others by
 //! links along the axis (`detour`) over what is cut already, where that takes less time than going
-//! up, across, and down into a neighbor; what has no neighbor that is cut is entered by a ramp into
-//! the stock (`plan`).
+//! up, across, and down into a neighbor (`approach`); what has no neighbor that is cut is entered by
+//! a helix or a ramp into the stock (`entry`). What stands between levels more than the tool radius
+//! apart is cut along the axis (`crest`, `trim`), when the tool comes by for the last time (`run`).
 
 mod approach;
 mod course;
