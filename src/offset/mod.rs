@@ -12,9 +12,14 @@
 
 mod level;
 mod merge;
+mod outward;
 mod reach;
 mod ridge;
+mod sets;
 mod trace;
+mod united;
 
 pub use level::Level;
 pub use merge::{MergeTree, Part};
+pub use outward::Exterior;
+pub use sets::LevelSets;
