@@ -15,9 +15,12 @@ fn unit(units: Units) -> &'static str {
     }
 }
 
+/// Lengths that read well with six decimals.
+const PLAIN: std::ops::Range<f64> = 1e-4..1e6;
+
 /// A deviation: with the digits that matter, whether it is round-off or a millimeter.
 fn deviation(length: f64) -> String {
-    if length == 0.0 || (1e-4..1e6).contains(&length) { short(length) } else { format!("{length:.2e}") }
+    if length == 0.0 || PLAIN.contains(&length) { short(length) } else { format!("{length:.2e}") }
 }
 
 impl Verdict {
