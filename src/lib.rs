@@ -110,7 +110,7 @@ pub use boundary::{Curve, FreeCurve, FreeShape, Pocket, Pockets, Source};
 pub use error::{Defect, Error};
 pub use geom::{ArcSpline, Bounds, Element, Ellipse, Point, Spline, Vector, Vertex, point, vector};
 pub use mat::{AxisEdge, AxisVertex, Counts, Disk, Kind, Mat, Mismatch, Residuals, SiteKind, SiteRef};
-pub use offset::{Level, MergeTree, Part};
+pub use offset::{Exterior, Level, LevelSets, MergeTree, Part};
 pub use tolerance::{Tolerance, Units};
 pub use toolpath::{Direction, Entry, Job, Move, Path, PocketPath, Point3, Start, Strategy, Totals};
 pub use verify::{Comparison, Disagreement, DisagreementKind, Fault, FaultKind, LevelReport, Party};

@@ -32,13 +32,26 @@ impl Mat {
     /// the distance is `d` (to round-off) and no area remains. Empty when nothing is that far away;
     /// the boundary itself is not a level set, so `d` must be above 0 to give any.
     pub fn level(&self, d: f64) -> Level {
+        self.level_of(d, |_| true)
+    }
+
+    /// The level set at distance `d` without the loops that follow one loop of the boundary.
+    pub(super) fn level_beside(&self, d: f64, loop_index: u32) -> Level {
+        self.level_of(d, |walk| {
+            walk.iter().all(|s| self.sites[s.site as usize].source.loop_index != loop_index)
+        })
+    }
+
+    fn level_of(&self, d: f64, wanted: impl Fn(&[Stretch]) -> bool) -> Level {
         let mut level = Level { distance: d, ..Level::default() };
         let unit = self.frame.length_in(d);
         if !(unit > 0.0 && unit <= 1.0) {
             return level;
         }
         let tracer = Tracer::new(self, unit);
-        level.loops = tracer.walks().iter().filter_map(|walk| tracer.offset_loop(walk)).collect();
+        let walks = tracer.walks();
+        let walks = walks.iter().filter(|walk| wanted(walk));
+        level.loops = walks.filter_map(|walk| tracer.offset_loop(walk)).collect();
         level.ridges = tracer.ridges().into_iter().map(|ridge| ridge.spline).collect();
         level
     }

@@ -46,6 +46,9 @@ pub struct MergeTree {
     pub parts: Vec<Part>,
     /// Distances at which the number of loops changes, falling, and the number below each.
     loops: Vec<(f64, usize)>,
+    /// The disks that a way between larger ones must pass: where parts unite, or a cycle round an island
+    /// closes. Falling.
+    passages: Vec<Disk>,
     /// Distances closer than this are equal.
     error: f64,
 }
@@ -89,6 +92,31 @@ impl MergeTree {
         let mut necks: Vec<Disk> = self.parts.iter().filter_map(|p| p.neck).collect();
         necks.sort_by(|a, b| a.radius.total_cmp(&b.radius));
         necks
+    }
+
+    /// Every disk that a way between larger ones must pass, narrowest first: [`splits`](MergeTree::splits),
+    /// and those beside islands, which a tool may get round on the other side.
+    pub fn passages(&self) -> impl ExactSizeIterator<Item = Disk> + '_ {
+        self.passages.iter().rev().copied()
+    }
+
+    /// The narrowest passage: a tool of no more than its radius gets everywhere that it fits.
+    pub fn narrowest_passage(&self) -> Option<Disk> {
+        self.passages().next()
+    }
+
+    /// The disk that stops a tool on its way between two parts, given by their indices: the largest tool
+    /// that gets from the one to the other. `None` when there is no such part.
+    pub fn passage_between(&self, a: usize, b: usize) -> Option<Disk> {
+        let (mut a, mut b) = (a, b);
+        // Parents come after their children: the smaller index is not the common portion yet.
+        while a != b {
+            let low = a.min(b);
+            let parent = self.parts.get(low)?.parent?;
+            if low == a { a = parent } else { b = parent }
+        }
+        let common = self.parts.get(a)?;
+        Some(common.neck.unwrap_or(common.peak))
     }
 
     /// A largest disk in the pocket: the largest tool that fits.
@@ -137,7 +165,7 @@ impl<'a> Sweep<'a> {
         up.sort_unstable();
         let is_plateau = plateau.iter().zip(0..).map(|(&p, v)| p == v).collect();
         let error = mat.frame.length_out(graph.error);
-        let tree = MergeTree { parts: Vec::new(), loops: Vec::new(), error };
+        let tree = MergeTree { parts: Vec::new(), loops: Vec::new(), passages: Vec::new(), error };
         Sweep { mat, is_plateau, up, cycles, sets: Sets::singles(n), part: vec![usize::MAX; n], tree }
     }
 
@@ -167,6 +195,10 @@ impl<'a> Sweep<'a> {
         above.sort_unstable();
         above.dedup();
         let cycles = self.cycles[v as usize] + ways - above.len();
+        // A ring of one radius all around is a peak, and no passage.
+        if ways > 1 {
+            self.tree.passages.push(disk);
+        }
         let children: Vec<usize> = above.iter().map(|&set| self.part[set as usize]).collect();
         let part = match children[..] {
             [only] => only,
@@ -269,6 +301,23 @@ mod tests {
         let tree = tree(ring.to_vec());
         assert_eq!(tree.parts.len(), 1);
         assert_eq!((tree.loops_at(2.4), tree.holes_of(0, 2.4), tree.loops_at(2.5)), (2, 1, 0));
+    }
+
+    #[test]
+    fn passages_are_where_a_tool_gets_through_and_no_larger_one() {
+        let split = tree(vec![dumbbell()]);
+        let neck = split.narrowest_passage().unwrap();
+        assert!((neck.radius - 2.0).abs() < 1e-13 && split.passages().len() == 1);
+        assert_eq!(split.passage_between(0, 1), Some(neck));
+        assert_eq!(split.passage_between(1, 1).map(|d| d.radius > 5.9), Some(true));
+        assert_eq!(split.passage_between(0, 9), None);
+        let plate = polygon(&[(0.0, 0.0), (60.0, 0.0), (60.0, 40.0), (0.0, 40.0)]);
+        let around = tree(vec![plate, ArcSpline::circle(point(22.0, 18.0), 8.0).reversed()]);
+        // 5 below the island, 7 above it: the wider one splits the pocket.
+        let radii: Vec<f64> = around.passages().map(|d| d.radius).collect();
+        assert!((radii[0] - 5.0).abs() < 1e-13, "{radii:?}");
+        let splits = around.splits();
+        assert!(splits.iter().any(|d| (d.radius - 7.0).abs() < 1e-13), "{splits:?}");
     }
 
     #[test]

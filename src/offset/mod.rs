@@ -12,10 +12,15 @@
 
 mod level;
 mod merge;
+mod outward;
 mod reach;
 mod ridge;
+mod sets;
 mod trace;
+mod united;
 
 pub use level::Level;
 pub use merge::{MergeTree, Part};
+pub use outward::Exterior;
 pub(crate) use ridge::parallel_bulge;
+pub use sets::LevelSets;

@@ -2,15 +2,14 @@
 
 use super::ridge::Ridge;
 use super::trace::{Stretch, Tracer};
+use super::united::overlap;
 use crate::geom::{ArcSpline, Element, Point, Vertex};
 use crate::mat::{Mat, Sets};
 use std::f64::consts::{PI, TAU};
 
 impl Mat {
     /// Area of the pocket that a disk of this radius, moved inside, cannot reach, in square job units.
-    ///
-    /// Exact but for one case: where three or more reachable parts face each other over the same
-    /// unreachable place and all overlap there, the overlap is counted by pairs.
+    /// Exact to round-off.
     pub fn unreachable_area(&self, radius: f64) -> f64 {
         let whole = self.area();
         let unit = self.frame.length_in(radius);
@@ -69,8 +68,7 @@ impl Tracer<'_> {
         ArcSpline { vertices, closed: true }
     }
 
-    /// Area that disks about two crossings share where both ends of an unreachable neck face each
-    /// other.
+    /// Area that disks about crossings share where the ends of an unreachable place face each other.
     fn overlap(&self) -> f64 {
         let mut neck_of: std::collections::BTreeMap<u32, Vec<Point>> = std::collections::BTreeMap::new();
         let outside = self.outside_components();
@@ -83,10 +81,7 @@ impl Tracer<'_> {
             };
             neck_of.entry(outside[out as usize]).or_default().push(self.crossing(edge));
         }
-        let pairs = neck_of.values().flat_map(|ends| {
-            (0..ends.len()).flat_map(move |i| (0..i).map(move |j| ends[i].distance(ends[j])))
-        });
-        pairs.map(|apart| lens(apart, self.d)).sum()
+        neck_of.values().map(|ends| overlap(ends, self.d)).sum()
     }
 
     /// Component of the axis with radius up to `d` that each vertex lies in.
@@ -101,13 +96,4 @@ impl Tracer<'_> {
         }
         (0..graph.disks.len() as u32).map(|i| outside.find(i)).collect()
     }
-}
-
-/// Area common to two disks of radius `r` whose centers are `apart`.
-fn lens(apart: f64, r: f64) -> f64 {
-    let half = 0.5 * apart / r;
-    if half >= 1.0 {
-        return 0.0;
-    }
-    2.0 * r * r * (half.acos() - half * (1.0 - half * half).sqrt())
 }

@@ -13,8 +13,8 @@
 //! number beside each loop tells whether it is there once.
 
 use super::boundary::{Boundary, widest};
-use super::missing;
 use super::report::{Fault, FaultKind, LevelReport};
+use super::{missing, phantom};
 use crate::geom::{ArcSpline, Element, Point};
 use rayon::prelude::*;
 
@@ -41,19 +41,59 @@ pub fn level<'a>(
     Boundary::new(boundary).judge(distance, offsets, 0.0)
 }
 
+/// Judges offset loops on the other side of the boundary: outside of a part, and in its holes. The part
+/// that is farther away is on the left of them here, too: the loop around a part runs clockwise.
+pub fn outward<'a>(
+    boundary: impl IntoIterator<Item = &'a ArcSpline>,
+    distance: f64,
+    offsets: &[ArcSpline],
+) -> LevelReport {
+    Boundary::new(boundary).judge_outward(distance, offsets, 0.0)
+}
+
 impl Boundary {
     /// Judges offset loops as [`level`] does, with differences up to `within` counted as none.
+    ///
+    /// The boundary may be that of many pockets. Offsets of unknown origin are made fit for it by
+    /// [`chained`](super::chained) and [`Boundary::turned`].
+    ///
+    /// ```
+    /// use medial::{ArcSpline, FaultKind, point, verify::Boundary};
+    ///
+    /// let plate = ArcSpline::closed([(0.0, 0.0, 0.0), (60.0, 0.0, 0.0), (60.0, 40.0, 0.0), (0.0, 40.0, 0.0)]);
+    /// let bore = ArcSpline::circle(point(20.0, 20.0), 8.0).reversed();
+    /// let boundary = Boundary::new([&plate, &bore]);
+    ///
+    /// // Some program offsets the wall to 3, a little off, and forgets the bore.
+    /// let wall = ArcSpline::closed([(3.0, 3.0, 0.0), (57.0, 3.0, 0.0), (57.0, 36.998, 0.0), (3.0, 37.0, 0.0)]);
+    /// let report = boundary.judge(3.0, &[wall], 0.01);
+    /// assert!((report.max_deviation - 0.002).abs() < 1e-12);
+    /// let [fault] = report.faults[..] else { panic!() };
+    /// assert_eq!(fault.kind, FaultKind::Missing);
+    /// assert!((fault.length - 22.0 * std::f64::consts::PI).abs() < 1e-3);
+    /// ```
     pub fn judge(&self, distance: f64, offsets: &[ArcSpline], within: f64) -> LevelReport {
+        self.judge_on(false, distance, offsets, within)
+    }
+
+    /// Judges offset loops as [`outward`] does, with differences up to `within` counted as none.
+    pub fn judge_outward(&self, distance: f64, offsets: &[ArcSpline], within: f64) -> LevelReport {
+        self.judge_on(true, distance, offsets, within)
+    }
+
+    fn judge_on(&self, outward: bool, distance: f64, offsets: &[ArcSpline], within: f64) -> LevelReport {
         let magnitude = self.bounds().magnitude() + distance.abs();
         let judge = Judge {
             boundary: self,
             offsets: Boundary::new(offsets),
             distance,
+            outward,
             within: within.max(ROUND_OFF * magnitude),
             aside: ASIDE * magnitude,
         };
         let mut report = LevelReport {
             distance,
+            outward,
             loops: offsets.len(),
             within: judge.within,
             area: offsets.iter().filter(|o| o.closed).map(ArcSpline::area).sum(),
@@ -72,16 +112,18 @@ pub(super) struct Judge<'a> {
     pub boundary: &'a Boundary,
     pub offsets: Boundary,
     pub distance: f64,
+    pub outward: bool,
     pub within: f64,
     pub aside: f64,
 }
 
 /// What was found along one element of a loop.
 #[derive(Default)]
-struct Finding {
+pub(super) struct Finding {
     places: usize,
-    deviation: f64,
-    at: Point,
+    /// Largest difference from the distance, and where.
+    pub deviation: f64,
+    pub at: Point,
     grows: f64,
     falls: f64,
     beside: Point,
@@ -91,7 +133,7 @@ impl Judge<'_> {
     /// Judges one loop or ridge.
     fn spline(&self, spline: &ArcSpline, report: &mut LevelReport) {
         if let Some(v) = spline.vertices.iter().find(|v| !v.point.is_finite() || !v.bulge.is_finite()) {
-            report.add(Fault { kind: FaultKind::NotANumber, at: v.point, by: 0.0 });
+            report.add(Fault::at(FaultKind::NotANumber, v.point));
             return;
         }
         let elements: Vec<Element> = spline.elements().collect();
@@ -100,27 +142,35 @@ impl Judge<'_> {
         if let (false, Some(last)) = (spline.closed, spline.vertices.last()) {
             self.look(last.point, &mut ends);
         }
-        let mut worst: Option<&Finding> = None;
-        for finding in findings.iter().chain([&ends]) {
+        for finding in findings.iter().chain([&ends]).filter(|f| f.places > 0) {
             report.places += finding.places;
-            if finding.places > 0 {
-                report.measure(finding.at, finding.deviation);
-            }
-            if worst.is_none_or(|w| finding.deviation > w.deviation) {
-                worst = Some(finding);
-            }
+            report.measure(finding.at, finding.deviation);
         }
-        match worst {
-            Some(w) if w.deviation > self.within => {
-                report.add(Fault { kind: FaultKind::Distance, at: w.at, by: w.deviation });
-            }
-            _ => self.sides(spline, &findings, report),
+        let parts = phantom::parts(self, spline, &findings);
+        if parts.is_empty() && ends.deviation <= self.within {
+            self.sides(spline, &findings, report);
+        } else if parts.is_empty() {
+            report.add(Fault { by: ends.deviation, ..Fault::at(FaultKind::Distance, ends.at) });
         }
+        for part in parts {
+            report.measure(part.at, part.by);
+            report.add(part);
+        }
+    }
+
+    /// How far a place is from being at the distance.
+    pub fn deviation(&self, at: Point) -> f64 {
+        (self.boundary.distance(at) - self.distance).abs()
+    }
+
+    /// Whether a place is on the side of the boundary where the offsets should be.
+    pub fn is_on_side(&self, at: Point) -> bool {
+        self.boundary.contains(at) != self.outward
     }
 
     /// Judges the two sides of a loop that keeps the distance.
     fn sides(&self, spline: &ArcSpline, findings: &[Finding], report: &mut LevelReport) {
-        let add = |kind, at, report: &mut LevelReport| report.add(Fault { kind, at, by: 0.0 });
+        let add = |kind, at, report: &mut LevelReport| report.add(Fault::at(kind, at));
         if !spline.closed {
             let inner = findings.iter().find(|f| f.grows.max(f.falls) > 0.5);
             if let Some(f) = inner {
@@ -130,7 +180,7 @@ impl Judge<'_> {
         }
         let Some(widest) = widest(spline).filter(|e| e.chord().length_squared() > 0.0) else { return };
         let at = widest.midpoint();
-        if !self.boundary.contains(at) {
+        if !self.is_on_side(at) {
             add(FaultKind::Outside, at, report);
         }
         // A closed ridge has nothing farther on either side.
@@ -148,7 +198,8 @@ impl Judge<'_> {
             places.max_by(|a, b| a.0.chord().length_squared().total_cmp(&b.0.chord().length_squared()));
         if let Some((e, _)) = place {
             let (at, n) = (e.midpoint(), e.normal_at(0.5) * self.aside);
-            if (self.offsets.winding(at + n), self.offsets.winding(at - n)) != (1, 0) {
+            // Once through one loop; how many others are around does not matter, as one may be missing.
+            if self.offsets.winding(at + n) - self.offsets.winding(at - n) != 1 {
                 add(FaultKind::Overlapping, at, report);
             }
         }

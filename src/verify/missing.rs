@@ -5,12 +5,15 @@
 //! distance to the boundary is at most `d`, and changes no faster than the place moves. So a
 //! stretch with `d - distance > length / 2` in its middle holds no place of the level; other
 //! stretches are halved, widest first, until one element of a loop covers them, they are shorter
-//! than the resolution, or the effort for one element is spent. Every place of the level found must lie on a loop, except where
-//! nothing farther lies beside it: such ridges bound no area.
+//! than the resolution, or the effort for one element is spent. Every place of the level found must lie
+//! on a loop, except where nothing farther lies beside it: such ridges bound no area. Where none does,
+//! the stretch is followed to both sides; stretches that follow each other are one part.
 
+use super::gaps::{Gap, parts};
 use super::level::Judge;
-use super::report::{Fault, FaultKind, LevelReport};
-use crate::geom::{ArcSpline, Element, Point};
+use super::phantom::change;
+use super::report::LevelReport;
+use crate::geom::{ArcSpline, Element};
 use rayon::prelude::*;
 use std::collections::VecDeque;
 use std::f64::consts::PI;
@@ -21,6 +24,9 @@ const EFFORT: usize = 128;
 /// A stretch whose middle lies on a loop, as did that of those it is part of, is halved this often.
 const COVERED_HALVINGS: u32 = 4;
 
+/// A stretch whose middle no loop passes, nor that of those it is part of, is halved this often.
+const MISSING_HALVINGS: u32 = 2;
+
 /// A stretch shorter than this share of its element is not halved.
 const SHARE: f64 = 1.0 / 16384.0;
 
@@ -30,18 +36,15 @@ const RESOLUTION: f64 = 16.0;
 /// Turns closer than this to a half turn may have either sign by round-off: half the digits.
 const CUSP: f64 = 1.0 / (1u64 << 26) as f64;
 
-/// Adds what is missing to the report: at most one place per element of the boundary.
+/// Adds what is missing to the report.
 pub(super) fn search(judge: &Judge, report: &mut LevelReport) {
-    let pushed: Vec<Element> =
-        judge.boundary.oriented().iter().flat_map(|spline| pushed(spline, judge.distance)).collect();
-    let findings: Vec<(usize, Option<Point>)> = pushed.par_iter().map(|e| along(judge, e)).collect();
-    for (places, missing) in findings {
-        report.places += places;
-        if let Some(at) = missing {
-            let by = judge.offsets.distance(at);
-            report.add(Fault { kind: FaultKind::Missing, at, by });
-        }
-    }
+    let side = |l: ArcSpline| if judge.outward { l.reversed() } else { l };
+    let oriented = judge.boundary.oriented().into_iter().map(side);
+    let pushed: Vec<Element> = oriented.flat_map(|spline| pushed(&spline, judge.distance)).collect();
+    let findings: Vec<(usize, Vec<Gap>)> = pushed.par_iter().map(|e| along(judge, e)).collect();
+    report.places += findings.iter().map(|f| f.0).sum::<usize>();
+    let gaps: Vec<Gap> = findings.into_iter().flat_map(|f| f.1).collect();
+    parts(judge, &gaps).into_iter().for_each(|fault| report.add(fault));
 }
 
 /// The places at distance `d` to the left of each element, and round each reflex vertex.
@@ -69,32 +72,35 @@ fn pushed(spline: &ArcSpline, d: f64) -> Vec<Element> {
     all
 }
 
-/// Looks along one pushed element: number of places, and one that is missing.
-fn along(judge: &Judge, e: &Element) -> (usize, Option<Point>) {
+/// Looks along one pushed element: number of places, and the stretches that are missing.
+fn along(judge: &Judge, e: &Element) -> (usize, Vec<Gap>) {
     let length = e.length();
     let shortest = (SHARE * length).max(RESOLUTION * judge.within);
     let mut places = 0;
+    let mut missing: Vec<(f64, f64)> = Vec::new();
     let mut stretches = VecDeque::from([(0.0, 1.0, 0)]);
     while let Some((from, to, halvings)) = stretches.pop_front() {
         if places >= EFFORT || !length.is_finite() {
             break;
         }
         let middle = 0.5 * (from + to);
-        let at = e.point_at(middle);
-        let short_by = judge.distance - judge.boundary.distance(at);
+        let short_by = judge.distance - judge.boundary.distance(e.point_at(middle));
         places += 1;
         let width = length * (to - from);
         if short_by - judge.within > 0.5 * width {
             continue;
         }
         let on_level = short_by <= judge.within;
-        if on_level {
-            if is_missing(judge, e, middle) {
-                return (places, Some(at));
-            }
-            if halvings >= COVERED_HALVINGS || is_covered(judge, e, [from, middle, to]) {
-                continue;
-            }
+        let is_missing = on_level && is_missing(judge, e, middle);
+        if is_missing && (halvings >= MISSING_HALVINGS || width <= shortest || places >= EFFORT / 2) {
+            missing.push((from, to));
+            continue;
+        }
+        if on_level
+            && !is_missing
+            && (halvings >= COVERED_HALVINGS || is_covered(judge, e, [from, middle, to]))
+        {
+            continue;
         }
         if width > shortest {
             let halvings = if on_level { halvings + 1 } else { 0 };
@@ -102,7 +108,38 @@ fn along(judge: &Judge, e: &Element) -> (usize, Option<Point>) {
             stretches.push_back((middle, to, halvings));
         }
     }
-    (places, None)
+    missing.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let gaps = missing.chunk_by(|a, b| a.1 == b.0).map(|run| gap(judge, e, run)).collect();
+    (places, gaps)
+}
+
+/// The gap that some stretches in a row make, followed as far as it goes.
+fn gap(judge: &Judge, e: &Element, run: &[(f64, f64)]) -> Gap {
+    let is_gap = |t: f64| {
+        judge.distance - judge.boundary.distance(e.point_at(t)) <= judge.within && is_missing(judge, e, t)
+    };
+    let middle = |stretch: (f64, f64)| 0.5 * (stretch.0 + stretch.1);
+    let end = |from: f64, step: f64, last: f64| {
+        let mut inside = from;
+        for _ in 0..EFFORT {
+            let next = (inside + step).clamp(0.0, 1.0);
+            if !is_gap(next) {
+                return change(inside, next, is_gap);
+            }
+            if next == last {
+                return last;
+            }
+            inside = next;
+        }
+        inside
+    };
+    let (first, last) = (run[0], run[run.len() - 1]);
+    let from = end(middle(first), first.0 - first.1, 0.0);
+    let to = end(middle(last), last.1 - last.0, 1.0);
+    let places = run.iter().map(|&stretch| e.point_at(middle(stretch)));
+    let far = |p: &crate::geom::Point| judge.offsets.distance(*p);
+    let at = places.max_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or(e.midpoint());
+    Gap { element: e.part(from, to), at, by: judge.offsets.distance(at) }
 }
 
 /// Whether one element of a loop passes all three places, and so, being a circle or a line just
@@ -120,5 +157,5 @@ fn is_missing(judge: &Judge, e: &Element, t: f64) -> bool {
         return false;
     }
     let beyond = at + e.normal_at(t) * judge.aside.max(RESOLUTION * judge.within);
-    judge.boundary.contains(at) && judge.boundary.distance(beyond) > judge.distance + 2.0 * judge.within
+    judge.is_on_side(at) && judge.boundary.distance(beyond) > judge.distance + 2.0 * judge.within
 }

@@ -11,6 +11,9 @@ pub(super) const MAX_FAULTS: usize = 64;
 pub struct LevelReport {
     /// The distance that the loops should have.
     pub distance: f64,
+    /// Whether they should lie outside of the boundary.
+    #[serde(default)]
+    pub outward: bool,
     /// Number of closed loops and open ridges judged.
     pub loops: usize,
     /// Number of places looked at.
@@ -29,15 +32,21 @@ pub struct LevelReport {
     pub faults: Vec<Fault>,
 }
 
-/// One thing that is wrong with the loops.
+/// One thing that is wrong with the loops, as long as it goes on. Lengths and areas are in job units, 0
+/// where they mean nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Fault {
     /// What it is.
     pub kind: FaultKind,
-    /// Where.
+    /// Where it is worst.
     pub at: Point,
-    /// By how much, in job units; 0 where that means nothing.
+    /// By how much there: the difference from the distance, or how far the nearest curve is from what
+    /// is missing.
     pub by: f64,
+    /// How long it is along the curve.
+    pub length: f64,
+    /// The area within it where it is a whole loop.
+    pub area: f64,
 }
 
 /// What can be wrong with a loop.
@@ -45,11 +54,11 @@ pub struct Fault {
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum FaultKind {
-    /// A place of the loop is not at the distance: a wrong or a phantom part.
+    /// A part of a loop that is not at the distance: misplaced, or a phantom.
     Distance,
-    /// A place at the distance that no loop passes.
+    /// A part of the level that no loop passes.
     Missing,
-    /// The loop lies outside the boundary.
+    /// The loop lies outside the boundary; inside of it, where it should be outside.
     Outside,
     /// The side farther from the boundary is not on the left.
     Reversed,
@@ -59,6 +68,13 @@ pub enum FaultKind {
     Open,
     /// A coordinate that is not a number.
     NotANumber,
+}
+
+impl Fault {
+    /// At a place, where a length means nothing.
+    pub(super) fn at(kind: FaultKind, at: Point) -> Fault {
+        Fault { kind, at, by: 0.0, length: 0.0, area: 0.0 }
+    }
 }
 
 impl LevelReport {
@@ -89,7 +105,7 @@ impl std::fmt::Display for FaultKind {
         f.write_str(match self {
             FaultKind::Distance => "not at the distance",
             FaultKind::Missing => "a part is missing",
-            FaultKind::Outside => "outside the boundary",
+            FaultKind::Outside => "on the wrong side of the boundary",
             FaultKind::Reversed => "runs the wrong way round",
             FaultKind::Overlapping => "there more than once",
             FaultKind::Open => "does not close",

@@ -10,6 +10,9 @@ const AFTER: &str = "\
 pocket inspect DRAWING.dxf -o picture.svg tells what a drawing holds, and every defect with its place \
 and its cure; begin there when something is wrong (pocket inspect --help).
 
+pocket check DRAWING.dxf --offsets theirs.dxf --distance 1.5 judges offsets that any program made \
+(pocket check --help).
+
 example: pocket part.dxf --tool 6 --step 40% --depth 5 --step-down 1.5 -o part.nc";
 
 /// Tool paths for pockets, from a DXF drawing through the exact medial axis.
@@ -25,7 +28,7 @@ example: pocket part.dxf --tool 6 --step 40% --depth 5 --step-down 1.5 -o part.n
     name = "pocket",
     version,
     allow_negative_numbers = true,
-    override_usage = "pocket [OPTIONS] <DRAWING.dxf>\n       pocket inspect [OPTIONS] <DRAWING.dxf>",
+    override_usage = "pocket [OPTIONS] <DRAWING.dxf>\n       pocket inspect [OPTIONS] <DRAWING.dxf>\n       pocket check [OPTIONS] --offsets <FILE> --distance <LENGTH> <DRAWING.dxf>",
     after_help = AFTER
 )]
 pub struct Args {
@@ -193,8 +196,9 @@ pub const SUBCOMMANDS: [&str; 2] = ["inspect", "check"];
 
 /// What to say when the name of a subcommand stands where none can.
 pub fn reserved(name: &str) -> String {
-    let why = if name == "inspect" { "comes first, before all options" } else { "is not in this version" };
-    format!("`{name}` is a subcommand and {why}; a file of that name is written ./{name}")
+    format!(
+        "`{name}` is a subcommand and comes first, before all options; a file of that name is written ./{name}"
+    )
 }
 
 /// The name of a drawing, which is not that of a subcommand.

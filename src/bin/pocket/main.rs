@@ -1,6 +1,7 @@
 //! The binary `pocket`: a drawing in, a program out.
 
 mod args;
+mod check;
 mod exit;
 mod failure;
 mod inspect;
@@ -16,7 +17,7 @@ mod settings;
 mod timings;
 mod verdict;
 
-use crate::args::{Args, ReportArg, SUBCOMMANDS, reserved};
+use crate::args::{Args, ReportArg};
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::notice::Notice;
@@ -43,9 +44,7 @@ fn main() -> ExitCode {
 fn run() -> Result<Exit, Failure> {
     match std::env::args_os().nth(1).as_ref().and_then(|name| name.to_str()) {
         Some("inspect") => inspect::run(),
-        Some(name) if SUBCOMMANDS.contains(&name) => {
-            Err(Failure::usage(reserved(name), "see pocket --help for what there is"))
-        }
+        Some("check") => check::run(),
         _ => machine(),
     }
 }

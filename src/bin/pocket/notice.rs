@@ -58,6 +58,11 @@ impl From<&toolpath::Warning> for Notice {
 }
 
 impl Notice {
+    /// The same, said of another file than the drawing.
+    pub fn about(self, what: &str) -> Notice {
+        Notice { message: format!("{what}: {}", self.message), ..self }
+    }
+
     /// Arcs that the decimals of the program are too few for.
     pub fn arcs_dropped(count: usize, at: Point) -> Notice {
         Notice::from(&io::Warning::ArcsDropped { count, at })
