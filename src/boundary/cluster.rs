@@ -4,9 +4,11 @@
 //! places do not run away. **Does not** compare places two by two.
 //!
 //! **Method.** The first place of each group is filed in a square of a grid. Squares are so wide that
-//! hardly any place is near a border, and few groups have room in one.
+//! hardly any place is near a border, and few groups have room in one. Most places are alone in their
+//! square, which a few bits tell.
 
 use super::grain::Grain;
+use super::sieve::Sieve;
 use crate::geom::Point;
 use std::collections::HashMap;
 
@@ -20,7 +22,7 @@ type Square = [i64; 2];
 struct Groups {
     grain: Grain,
     firsts: Vec<Point>,
-    /// The newest group of each square.
+    /// The newest group of each square; groups of places that are alone are not there.
     newest: HashMap<Square, u32>,
     /// For each group the one before it in the same square.
     before: Vec<Option<u32>>,
@@ -28,37 +30,51 @@ struct Groups {
 
 /// Groups places that are the same to round-off: the group of each and a place of each group.
 pub(super) fn cluster(places: &[Point], grain: Grain) -> (Vec<u32>, Vec<Point>) {
-    let (newest, before) = (HashMap::with_capacity(places.len() / 2), Vec::new());
-    let mut groups = Groups { grain, firsts: Vec::new(), newest, before };
-    let group_of = places.iter().map(|&p| groups.of(p)).collect();
-    (group_of, groups.firsts)
+    let mut groups = Groups { grain, firsts: Vec::new(), newest: HashMap::new(), before: Vec::new() };
+    let mut sieve = Sieve::new(places.len());
+    let key = |square: Square| square.map(|c| c as u64);
+    places.iter().for_each(|&p| sieve.note(key(groups.square(p))));
+    let group_of = places.iter().map(|&p| {
+        let own = groups.square(p);
+        let is_empty = |square: Square| square == own || sieve.is_unknown(key(square));
+        let is_alone = sieve.is_single(key(own)) && groups.around(p).all(is_empty);
+        if is_alone { groups.push(p, None) } else { groups.of(p) }
+    });
+    (group_of.collect(), groups.firsts)
 }
 
 impl Groups {
-    /// The group of a place, a new one if it is in none.
-    fn of(&mut self, p: Point) -> u32 {
+    /// The squares of groups in which a place may be.
+    fn around(&self, p: Point) -> impl Iterator<Item = Square> + use<> {
         // Twice the round-off, as the reach of a group is rounded too.
         let around = self.grain.around(p).grown(self.grain.same);
         let (from, to) = (self.square(around.min), self.square(around.max));
+        (from[0]..=to[0]).flat_map(move |x| (from[1]..=to[1]).map(move |y| [x, y]))
+    }
+
+    /// The group of a place, a new one if it is in none.
+    fn of(&mut self, p: Point) -> u32 {
         let mut first = None;
-        for x in from[0]..=to[0] {
-            for y in from[1]..=to[1] {
-                let mut at = self.newest.get(&[x, y]).copied();
-                while let Some(group) = at {
-                    if self.grain.around(self.firsts[group as usize]).contains(p) {
-                        first = Some(first.map_or(group, |known: u32| known.min(group)));
-                    }
-                    at = self.before[group as usize];
+        for square in self.around(p) {
+            let mut at = self.newest.get(&square).copied();
+            while let Some(group) = at {
+                if self.grain.around(self.firsts[group as usize]).contains(p) {
+                    first = Some(first.map_or(group, |known: u32| known.min(group)));
                 }
+                at = self.before[group as usize];
             }
         }
         first.unwrap_or_else(|| {
             let group = self.firsts.len() as u32;
-            self.firsts.push(p);
-            let square = self.square(p);
-            self.before.push(self.newest.insert(square, group));
-            group
+            let before = self.newest.insert(self.square(p), group);
+            self.push(p, before)
         })
+    }
+
+    fn push(&mut self, p: Point, before: Option<u32>) -> u32 {
+        self.firsts.push(p);
+        self.before.push(before);
+        self.firsts.len() as u32 - 1
     }
 
     fn square(&self, p: Point) -> Square {

@@ -45,6 +45,7 @@ mod pieces;
 mod pocket;
 mod ray;
 mod regions;
+mod sieve;
 mod simple;
 mod tee;
 
