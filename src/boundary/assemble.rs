@@ -13,6 +13,7 @@ use super::faces::Faces;
 use super::gather::{all_ends_meet, gather};
 use super::grain::Grain;
 use super::loose::dividers;
+use super::overlap::unite_courses;
 use super::pieces::{Loop, Pieces};
 use super::regions::{Nests, pockets};
 use super::simple::{cut_small_loops, has_area, is_flat, simple_loops};
@@ -20,6 +21,9 @@ use super::tee::{Loose, attach};
 use super::{Pocket, Pockets};
 use crate::error::{Defect, Error};
 use crate::geom::{ArcSpline, Bounds, Point};
+
+/// Rounds of mending: limit on effort. Each one mends what the one before has uncovered.
+const HEALINGS: usize = 4;
 
 /// Pockets of some paths, with their ranks as places in the drawing.
 pub(super) fn assemble<'a>(
@@ -51,7 +55,7 @@ struct Drawing {
     copies: Option<(usize, Point)>,
     /// How many stretches lie on others, and where one of them does.
     overlaps: Option<(usize, Point)>,
-    /// How many small loops were cut off, and where one of them was.
+    /// How many crossings were mended, and where one of them was.
     healed: Option<(usize, Point)>,
 }
 
@@ -165,7 +169,11 @@ impl Drawing {
         curves.retain(|c| c.path.closed || !c.path.is_empty());
         curves = self.without_copies_and_lines(curves);
         let mut crossings = Crossings::of(&curves, self.grain);
-        if self.heal(&mut curves, &crossings) {
+        for _ in 0..HEALINGS {
+            if !self.heal(&mut curves, &crossings) {
+                break;
+            }
+            curves = self.without_copies_and_lines(curves);
             crossings = Crossings::of(&curves, self.grain);
         }
         self.defects.append(&mut crossings.defects);
@@ -200,7 +208,8 @@ impl Drawing {
         kept
     }
 
-    /// Cuts loops smaller than the reach off contours that cross themselves; answers whether any was.
+    /// Mends crossings smaller than the reach: cuts loops off contours that cross themselves, and makes
+    /// contours that overlap end on each other. Answers whether there was one.
     fn heal(&mut self, curves: &mut [Contour], crossings: &Crossings) -> bool {
         let mut places = Vec::new();
         for (&curve, crossed) in &crossings.own {
@@ -209,6 +218,8 @@ impl Drawing {
                 places.extend(cut_small_loops(path, crossed, self.join));
             }
         }
+        let pairs: Vec<(usize, usize)> = crossings.pairs.iter().copied().collect();
+        places.extend(unite_courses(curves, &pairs, self.join));
         add(&mut self.healed, places.first().map(|&at| (places.len(), at)));
         !places.is_empty()
     }

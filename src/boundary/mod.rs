@@ -19,7 +19,7 @@
 //!   on the wall.
 //! - Contours that change sides, in a place or along a common stretch, cross. That is a defect, with
 //!   its places, and leaves out the nest. Loops of one contour that are smaller than the reach are
-//!   cut off.
+//!   cut off, and of two contours that overlap by less than the reach one ends on the other.
 
 mod arrange;
 mod assemble;
@@ -41,6 +41,7 @@ mod junction;
 mod lists;
 mod loose;
 mod nesting;
+mod overlap;
 mod pieces;
 mod pocket;
 mod ray;
