@@ -1,14 +1,14 @@
 //! Contours that cross by less than the reach of joining.
 //!
 //! **Needs** contours whose common places are common vertices. **Guarantees** that of two contours that
-//! cross, the second takes the course of the first from one common place to the next wherever both
-//! courses lie within the reach of each other. **Does not** move a contour by more than the reach, nor
+//! cross, one takes the course of the other from one common place to the next wherever both courses lie
+//! within the reach of each other. **Does not** move a contour by more than the reach, nor
 //! by more than a small part of its size; nor look at contours that do not cross, or pass a common
 //! place twice.
 //!
-//! **Method.** Between two common places that follow each other on both contours there is no third one,
-//! so the new course meets the rest of its contour nowhere else. All its vertices are vertices of the
-//! first contour, and what meets that one there has them too.
+//! **Method.** Between two common places that follow each other on a contour there is no third one, so a
+//! course along it meets the rest of the other contour nowhere else. All its vertices are those of that
+//! contour, and what meets that one there has them too.
 
 use super::chain::Contour;
 use crate::geom::{ArcSpline, Point, Vertex};
@@ -24,20 +24,26 @@ const COMPARED: usize = 10_000;
 /// Vertices that are looked at: limit on effort; the crossings beyond it stay.
 const VISITED: usize = 2_000_000;
 
+/// Common places that a contour may pass on its way from one to the next of the other contour: round a
+/// corner that reaches over by a hair there are two or three.
+const AHEAD: usize = 4;
+
 /// Gives contours that cross, as the pairs say, a common course where they differ by less than `reach`.
 /// Answers where.
 pub(super) fn unite_courses(contours: &mut [Contour], pairs: &[(usize, usize)], reach: f64) -> Vec<Point> {
     let (mut places, mut visited) = (Vec::new(), 0);
     for &(a, b) in pairs {
-        let (first, second) = (&contours[a].path, &contours[b].path);
-        visited += first.len() + second.len();
-        if visited > VISITED {
-            break;
-        }
-        let size = first.bounds().diagonal().min(second.bounds().diagonal());
-        if let Some((path, moved)) = on_course(second, first, reach.min(ROUGHNESS * size)) {
-            contours[b].path = path;
-            places.extend(moved);
+        for (from, onto) in [(b, a), (a, b)] {
+            let (path, other) = (&contours[from].path, &contours[onto].path);
+            visited += path.len() + other.len();
+            if visited > VISITED {
+                return places;
+            }
+            let size = path.bounds().diagonal().min(other.bounds().diagonal());
+            if let Some((path, moved)) = on_course(path, other, reach.min(ROUGHNESS * size)) {
+                contours[from].path = path;
+                places.extend(moved);
+            }
         }
     }
     places
@@ -50,18 +56,26 @@ fn on_course(path: &ArcSpline, other: &ArcSpline, within: f64) -> Option<(ArcSpl
     let mut in_order: Vec<usize> = common.iter().map(|c| c.1).collect();
     in_order.sort_unstable();
     let after = |of: usize| in_order.get(in_order.partition_point(|&i| i <= of)).unwrap_or(&in_order[0]);
-    let (mut vertices, mut places) = (Vec::with_capacity(path.len()), Vec::new());
-    for (k, &(from, from_other)) in common.iter().enumerate() {
-        let &(to, to_other) = common.get(k + 1).unwrap_or(&common[0]);
-        let own = stretch(path, from, to);
+    let course = |(from, from_other): (usize, usize), (to, to_other): (usize, usize)| {
         let forward = (*after(from_other) == to_other).then(|| stretch(other, from_other, to_other));
         let backward =
             (*after(to_other) == from_other).then(|| stretch(other, to_other, from_other).reversed());
-        let course = forward.into_iter().chain(backward).find(|course| is_alike(&own, course, within));
-        let changed = course.filter(|course| course.vertices[..course.len()] != own.vertices[..own.len()]);
-        places.extend(changed.as_ref().map(|_| path.vertices[from].point));
-        let taken = changed.unwrap_or(own);
+        let ways = || forward.iter().chain(&backward);
+        ways().next()?;
+        let own = stretch(path, from, to);
+        let found = ways().find(|way| is_alike(&own, way, within))?;
+        (found.vertices[..found.len()] != own.vertices[..own.len()]).then(|| found.clone())
+    };
+    let (mut vertices, mut places) = (Vec::with_capacity(path.len()), Vec::new());
+    let (n, mut k) = (common.len(), 0);
+    while k < n {
+        let steps = (1..=AHEAD.min(n - k)).rev();
+        let next = steps.map(|step| (step, course(common[k], common[(k + step) % n])));
+        let (step, taken) = next.into_iter().find(|(_, course)| course.is_some()).unwrap_or((1, None));
+        places.extend(taken.as_ref().map(|_| path.vertices[common[k].0].point));
+        let taken = taken.unwrap_or_else(|| stretch(path, common[k].0, common[(k + step) % n].0));
         vertices.extend_from_slice(&taken.vertices[..taken.len()]);
+        k += step;
     }
     (!places.is_empty()).then_some((ArcSpline { vertices, closed: true }, places))
 }
@@ -134,6 +148,19 @@ mod tests {
     fn a_bar_that_reaches_in_farther_stays() {
         let [square, bar] = square_and_bar(0.02);
         assert_eq!(united([square, bar.clone()], 0.01), (bar, 0));
+    }
+
+    #[test]
+    fn a_corner_that_reaches_over_by_a_hair_is_trimmed() {
+        // From below along the side, over it, back over it on the way out and in again, and out.
+        let at = |x: f64, y: f64| (x, y, 0.0);
+        let places = [at(4.0, 1.0), at(4.0, 2.996), at(4.0, 2.998), at(4.0, 3.0)];
+        let [p, c, b, a] = places;
+        let square = ArcSpline::closed([at(0.0, 0.0), at(4.0, 0.0), p, c, b, a, at(4.0, 5.0), at(0.0, 5.0)]);
+        let bar = ArcSpline::closed([p, at(3.999, 2.0), a, at(4.001, 3.0), b, c, at(9.0, 3.0), at(9.0, 1.0)]);
+        let (bar, count) = united([square, bar], 0.01);
+        assert_eq!((count, bar.vertices.len()), (1, 4));
+        assert_eq!(bar.vertices[1].point, crate::geom::point(c.0, c.1));
     }
 
     #[test]
