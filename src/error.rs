@@ -123,8 +123,9 @@ pub enum Defect {
         /// A place on one of them.
         at: Point,
     },
-    /// Loops smaller than the join tolerance, by which contours crossed themselves; they were cut off.
-    #[error("{} {at}", amount(*count, "loop smaller than --join was cut off", "loops smaller than --join were cut off"))]
+    /// Crossings smaller than the join tolerance. They were mended: loops by which contours crossed
+    /// themselves were cut off, and contours that overlapped end on each other.
+    #[error("{} {at}", amount(*count, "crossing smaller than --join was mended", "crossings smaller than --join were mended"))]
     Healed {
         /// How many there were.
         count: usize,
@@ -213,7 +214,7 @@ impl Defect {
             Defect::Divided { .. } => {
                 "each part is a pocket of its own; if the curves are no walls, remove them or select with --layer".into()
             }
-            Defect::Healed { .. } => "nothing to do, unless the loops are meant: then choose a smaller --join".into(),
+            Defect::Healed { .. } => "nothing to do, unless it is meant so: then choose a smaller --join".into(),
             Defect::NotOnePocket { .. } => "make one pocket of each outer loop with its islands".into(),
             Defect::Crossing { .. } | Defect::SelfCrossing { .. } | Defect::MoreCrossings { .. } => {
                 "trim the curves in the drawing so that contours touch at most, or select with --layer".into()

@@ -9,7 +9,7 @@
 
 use super::chain::Contour;
 use super::clean::clean;
-use super::ends::cluster;
+use super::cluster::cluster;
 use super::grain::Grain;
 use super::index::Index;
 use super::intersect::meet;
@@ -87,11 +87,13 @@ fn meetings(elements: &[Element], grain: Grain) -> Result<Vec<Meeting>, Error> {
 
 /// Boxes of elements, grown by a margin, of long ones in pieces; each with the number of its element.
 pub(super) fn filed(elements: &[Element], margin: f64) -> (Vec<Bounds>, Vec<u32>) {
-    let mean = elements.iter().map(Element::length).sum::<f64>() / elements.len().max(1) as f64;
+    // Of at most a half circle, an element is not much longer than its chord.
+    let chord = |e: &Element| e.chord().length();
+    let mean = elements.iter().map(chord).sum::<f64>() / elements.len().max(1) as f64;
     let mut owners = Vec::with_capacity(2 * elements.len());
     let mut boxes = Vec::with_capacity(2 * elements.len());
     for (i, e) in elements.iter().enumerate() {
-        let count = ((e.length() / mean).ceil() as usize).clamp(1, elements.len());
+        let count = ((chord(e) / mean).ceil() as usize).clamp(1, elements.len());
         for piece in 0..count {
             let part = |k: usize| k as f64 / count as f64;
             let piece = if count == 1 { *e } else { e.part(part(piece), part(piece + 1)) };

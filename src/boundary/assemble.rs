@@ -13,6 +13,7 @@ use super::faces::Faces;
 use super::gather::{all_ends_meet, gather};
 use super::grain::Grain;
 use super::loose::dividers;
+use super::overlap::unite_courses;
 use super::pieces::{Loop, Pieces};
 use super::regions::{Nests, pockets};
 use super::simple::{cut_small_loops, has_area, is_flat, simple_loops};
@@ -20,6 +21,9 @@ use super::tee::{Loose, attach};
 use super::{Pocket, Pockets};
 use crate::error::{Defect, Error};
 use crate::geom::{ArcSpline, Bounds, Point};
+
+/// Rounds of mending: limit on effort. Each one mends what the one before has uncovered.
+const HEALINGS: usize = 4;
 
 /// Pockets of some paths, with their ranks as places in the drawing.
 pub(super) fn assemble<'a>(
@@ -32,8 +36,7 @@ pub(super) fn assemble<'a>(
     }
     let usable = paths.clone().filter(|p| is_usable(p));
     let grain = Grain::of(&usable.fold(Bounds::EMPTY, |b, p| b.union(rough_bounds(p))));
-    let seen = Seen::new(grain, join);
-    let mut drawing = Drawing { grain, join, defects: Vec::new(), seen, overlaps: None, healed: None };
+    let mut drawing = Drawing { grain, join, ..Drawing::default() };
     let (contours, open) = drawing.contours(paths);
     let (lines, rest) = dividers(open, &contours, join, grain);
     let mut arranged = drawing.arranged(contours, lines, rest)?;
@@ -43,14 +46,16 @@ pub(super) fn assemble<'a>(
 }
 
 /// What is known of a drawing on the way.
+#[derive(Default)]
 struct Drawing {
     grain: Grain,
     join: f64,
     defects: Vec<Defect>,
-    seen: Seen,
+    /// How many curves are copies of others, and where one of them is.
+    copies: Option<(usize, Point)>,
     /// How many stretches lie on others, and where one of them does.
     overlaps: Option<(usize, Point)>,
-    /// How many small loops were cut off, and where one of them was.
+    /// How many crossings were mended, and where one of them was.
     healed: Option<(usize, Point)>,
 }
 
@@ -70,7 +75,9 @@ struct Arranged {
 impl Drawing {
     /// Closed contours in the order of the drawing, and what does not close.
     fn contours<'a>(&mut self, paths: impl Iterator<Item = &'a ArcSpline>) -> (Vec<Contour>, Vec<OpenChain>) {
-        let (mut contours, mut loose) = (Vec::new(), Loose::default());
+        let (mut contours, mut loose): (Vec<Contour>, _) = (Vec::new(), Loose::default());
+        let mut seen = Seen::new(self.grain, self.join);
+        let mut seen_open = Seen::new(self.grain, self.join);
         for (rank, path) in paths.enumerate() {
             if !is_usable(path) {
                 self.defects.push(Defect::Coordinate { at: some_place(path) });
@@ -79,25 +86,29 @@ impl Drawing {
             let cleaned = clean(path, self.grain);
             if cleaned.is_empty() {
                 self.report_point(path);
-            } else if self.seen.is_new(&cleaned) {
-                if cleaned.closed {
+            } else if cleaned.closed {
+                if seen.is_new(&cleaned, |i| &contours[i].path) {
                     contours.push(Contour { path: cleaned, rank, loose: false });
-                } else {
-                    loose.paths.push(cleaned);
-                    loose.ranks.push(rank);
                 }
+            } else if seen_open.is_new(&cleaned, |i| &loose.paths[i]) {
+                loose.paths.push(cleaned);
+                loose.ranks.push(rank);
             }
         }
+        add(&mut self.copies, seen_open.copies);
+        drop(seen_open);
         let loose = self.attached(loose, &contours);
         let (chained, open) = chain(&loose.paths, &loose.ranks, self.join, self.grain);
+        drop(loose);
         for contour in chained {
             let path = clean(&contour.path, self.grain);
             if path.is_empty() {
                 self.report_point(&contour.path);
-            } else if self.seen.is_new(&path) {
+            } else if seen.is_new(&path, |i| &contours[i].path) {
                 contours.push(Contour { path, ..contour });
             }
         }
+        add(&mut self.copies, seen.copies);
         contours.sort_by_key(|c| c.rank);
         (contours, open)
     }
@@ -118,7 +129,7 @@ impl Drawing {
         let mut found = Loose::default();
         for (path, rank) in attached.paths.iter().zip(attached.ranks) {
             let path = clean(path, self.grain);
-            if !path.is_empty() && seen.is_new(&path) {
+            if !path.is_empty() && seen.is_new(&path, |i| &found.paths[i]) {
                 found.paths.push(path);
                 found.ranks.push(rank);
             }
@@ -141,22 +152,28 @@ impl Drawing {
         lines: Vec<ArcSpline>,
         mut rest: Vec<ArcSpline>,
     ) -> Result<Arranged, Error> {
-        let mut curves = contours.clone();
-        let open = lines.iter().cloned().map(|path| Contour { path, rank: usize::MAX, loose: true });
-        curves.extend(open);
-        if let Err(error) = arrange(&mut curves, self.grain) {
-            if lines.is_empty() {
-                return Err(error);
-            }
-            // Without the open curves it may be less.
-            curves = contours;
+        let mut curves = contours;
+        if lines.is_empty() {
             arrange(&mut curves, self.grain)?;
-            rest.extend(lines);
+        } else {
+            let contours = curves.clone();
+            let open = lines.iter().cloned().map(|path| Contour { path, rank: usize::MAX, loose: true });
+            curves.extend(open);
+            if arrange(&mut curves, self.grain).is_err() {
+                // Without the open curves it may be less.
+                curves = contours;
+                arrange(&mut curves, self.grain)?;
+                rest.extend(lines);
+            }
         }
         curves.retain(|c| c.path.closed || !c.path.is_empty());
-        self.drop_copies_and_lines(&mut curves);
+        curves = self.without_copies_and_lines(curves);
         let mut crossings = Crossings::of(&curves, self.grain);
-        if self.heal(&mut curves, &crossings) {
+        for _ in 0..HEALINGS {
+            if !self.heal(&mut curves, &crossings) {
+                break;
+            }
+            curves = self.without_copies_and_lines(curves);
             crossings = Crossings::of(&curves, self.grain);
         }
         self.defects.append(&mut crossings.defects);
@@ -174,20 +191,25 @@ impl Drawing {
     }
 
     /// Once contours share their vertices, copies of contours drawn with others are equal too.
-    fn drop_copies_and_lines(&mut self, curves: &mut Vec<Contour>) {
+    fn without_copies_and_lines(&mut self, curves: Vec<Contour>) -> Vec<Contour> {
         let mut seen = Seen::new(self.grain, 0.0);
-        seen.copies = self.seen.copies;
-        curves.retain(|c| {
-            if c.path.closed && is_flat(&c.path, self.grain) {
-                self.defects.extend(c.path.vertices.first().map(|v| Defect::NoArea { at: v.point }));
-                return false;
+        let (mut kept, mut open): (Vec<Contour>, Vec<Contour>) = (Vec::new(), Vec::new());
+        for curve in curves {
+            if !curve.path.closed {
+                open.push(curve);
+            } else if is_flat(&curve.path, self.grain) {
+                self.defects.extend(curve.path.vertices.first().map(|v| Defect::NoArea { at: v.point }));
+            } else if seen.is_new(&curve.path, |i| &kept[i].path) {
+                kept.push(curve);
             }
-            !c.path.closed || seen.is_new(&c.path)
-        });
-        self.seen = seen;
+        }
+        add(&mut self.copies, seen.copies);
+        kept.append(&mut open);
+        kept
     }
 
-    /// Cuts loops smaller than the reach off contours that cross themselves; answers whether any was.
+    /// Mends crossings smaller than the reach: cuts loops off contours that cross themselves, and makes
+    /// contours that overlap end on each other. Answers whether there was one.
     fn heal(&mut self, curves: &mut [Contour], crossings: &Crossings) -> bool {
         let mut places = Vec::new();
         for (&curve, crossed) in &crossings.own {
@@ -196,6 +218,8 @@ impl Drawing {
                 places.extend(cut_small_loops(path, crossed, self.join));
             }
         }
+        let pairs: Vec<(usize, usize)> = crossings.pairs.iter().copied().collect();
+        places.extend(unite_courses(curves, &pairs, self.join));
         add(&mut self.healed, places.first().map(|&at| (places.len(), at)));
         !places.is_empty()
     }
@@ -205,7 +229,7 @@ impl Drawing {
         let mut loops = Vec::new();
         let mut is_cut = false;
         for contour in contours {
-            let simple = simple_loops(&contour.path);
+            let simple = simple_loops(contour.path);
             let count = simple.len();
             is_cut |= count > 1;
             for path in simple {
@@ -224,8 +248,14 @@ impl Drawing {
         }
         if is_cut {
             let mut seen = Seen::new(self.grain, 0.0);
-            loops.retain(|l| seen.is_new(&l.path));
+            let mut kept: Vec<Loop> = Vec::with_capacity(loops.len());
+            for one in loops {
+                if seen.is_new(&one.path, |i| &kept[i].path) {
+                    kept.push(one);
+                }
+            }
             add(&mut self.overlaps, seen.copies);
+            return kept;
         }
         loops
     }
@@ -291,7 +321,7 @@ impl Drawing {
     fn report(&mut self) {
         self.defects.extend(self.overlaps.map(|(count, at)| Defect::Overlaps { count, at }));
         self.defects.extend(self.healed.map(|(count, at)| Defect::Healed { count, at }));
-        self.defects.extend(self.seen.defect());
+        self.defects.extend(self.copies.map(|(count, at)| Defect::Duplicates { count, at }));
     }
 }
 

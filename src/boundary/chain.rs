@@ -82,18 +82,18 @@ impl<'a> Links<'a> {
     fn new(paths: &'a [ArcSpline], ends: &Ends) -> Links<'a> {
         let place = (0..2 * paths.len() as End).map(|e| ends.place(e)).collect();
         let mut links = Links { paths, next: vec![None; 2 * paths.len()], place };
-        for (kept, dropped) in ends.meetings() {
-            let first = if kept.is_empty() { &dropped } else { &kept };
+        ends.meetings(|kept, dropped| {
+            let first = if kept.is_empty() { dropped } else { kept };
             let node = middle(first.iter().map(|&e| ends.place(e)));
-            kept.iter().chain(&dropped).for_each(|&e| links.place[e as usize] = node);
+            kept.iter().chain(dropped).for_each(|&e| links.place[e as usize] = node);
             if kept.len() > 2 {
-                links.join_fan(&kept, ends);
+                links.join_fan(kept, ends);
             } else {
-                links.join_in_order(&kept);
+                links.join_in_order(kept);
             }
             // Dropped curves form chains of their own, for the report.
-            links.join_in_order(&dropped);
-        }
+            links.join_in_order(dropped);
+        });
         links
     }
 
@@ -139,9 +139,15 @@ impl<'a> Links<'a> {
         let mut vertices = Vec::new();
         for &end in entered {
             let path = &self.paths[curve_of(end)];
-            let turned = if end % 2 == 0 { path.clone() } else { path.reversed() };
-            let from = vertices.len();
-            vertices.extend_from_slice(&turned.vertices[..turned.vertices.len() - 1]);
+            let (from, n) = (vertices.len(), path.len());
+            if end % 2 == 0 {
+                vertices.extend_from_slice(&path.vertices[..n]);
+            } else {
+                // Not `-bulge`, so that the bulge of a segment stays +0.
+                let turned =
+                    |i: usize| Vertex { bulge: 0.0 - path.vertices[i - 1].bulge, ..path.vertices[i] };
+                vertices.extend((1..=n).rev().map(turned));
+            }
             vertices[from] = Vertex { point: self.place[end as usize], ..vertices[from] };
         }
         ArcSpline { vertices, closed: true }
@@ -169,15 +175,19 @@ impl<'a> Links<'a> {
 }
 
 /// The mean of the distinct places among some.
-fn middle(places: impl Iterator<Item = Point>) -> Point {
+fn middle(places: impl Iterator<Item = Point> + Clone) -> Point {
+    let mut rest = places.clone();
+    let one = rest.next().unwrap_or_default();
+    if rest.all(|p| p == one) {
+        return one;
+    }
     let mut distinct: Vec<Point> = Vec::new();
     let mut known = HashMap::new();
     for p in places {
         known.entry((p.x.to_bits(), p.y.to_bits())).or_insert_with(|| distinct.push(p));
     }
     match distinct[..] {
-        [] => Point::default(),
-        [only] => only,
+        [] => one,
         [a, b] => a.midpoint(b),
         [first, ..] => {
             let sum = distinct.iter().fold(crate::geom::vector(0.0, 0.0), |s, &p| s + (p - first));

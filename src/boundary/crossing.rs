@@ -14,7 +14,7 @@ use super::grain::Grain;
 use super::junction::{Junction, Junctions, Strand};
 use crate::error::Defect;
 use crate::geom::{ArcSpline, Point};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Crossings that are listed; of the others only their number is told.
 const LISTED: usize = 100;
@@ -28,6 +28,8 @@ pub(super) struct Crossings {
     pub defects: Vec<Defect>,
     /// Whether any curves run along each other.
     pub are_any_along: bool,
+    /// Pairs of contours that cross each other.
+    pub pairs: BTreeSet<(usize, usize)>,
     /// Contours that cross themselves, and in which vertices.
     pub own: BTreeMap<usize, Vec<usize>>,
     more: Option<(usize, Point)>,
@@ -76,6 +78,9 @@ impl Crossings {
         }
         self.crosses[a] = true;
         self.crosses[b] = true;
+        if a != b {
+            self.pairs.insert((a, b));
+        }
         if self.defects.len() < LISTED {
             self.defects.push(if a == b { Defect::SelfCrossing { at } } else { Defect::Crossing { at } });
         } else {

@@ -11,12 +11,14 @@
 //! node without a partner drops one of its curves, which may set free an end elsewhere that has a
 //! partner. Each step merges nodes or drops a curve, so this ends.
 
+use super::cluster::cluster;
 use super::fan::Fan;
 use super::grain::Grain;
 use super::index::Index;
+use super::lists::Lists;
 use crate::geom::{ArcSpline, Bounds, Element, Point};
 use std::cmp::Reverse;
-use std::collections::{BTreeSet, BinaryHeap, HashMap};
+use std::collections::{BTreeSet, BinaryHeap};
 
 /// The end of curve `e / 2`: its start when `e` is even.
 pub(super) type End = u32;
@@ -43,9 +45,9 @@ pub(super) struct Ends<'a> {
     /// The node of every spot: one of its spots.
     node_of: Vec<u32>,
     /// The ends at every node.
-    members: Vec<Vec<End>>,
+    members: Lists,
     /// The spots of every node.
-    parts: Vec<Vec<u32>>,
+    parts: Lists,
     /// Number of kept ends at every node.
     degree: Vec<u32>,
     /// Number of kept ends at every spot.
@@ -89,12 +91,13 @@ impl<'a> Ends<'a> {
             .flat_map(|p| [p.vertices[0].point, p.vertices[p.vertices.len() - 1].point])
             .collect();
         let (spot_of, spots) = cluster(&places, grain);
-        let mut members = vec![Vec::new(); spots.len()];
-        for (end, &spot) in spot_of.iter().enumerate() {
-            members[spot as usize].push(end as End);
-        }
-        let degree: Vec<u32> = members.iter().map(|m| m.len() as u32).collect();
-        let tree = Index::new(&spots.iter().map(|&p| Bounds { min: p, max: p }).collect::<Vec<_>>());
+        drop(places);
+        let members = Lists::of(spots.len(), spot_of.iter().copied());
+        let degree: Vec<u32> = (0..spots.len()).map(|spot| members.len(spot)).collect();
+        // Nobody looks around where all fits.
+        let fits = degree.iter().all(|d| d.is_multiple_of(2));
+        let looked_at = if fits { &[] } else { &spots[..] };
+        let tree = Index::new(&looked_at.iter().map(|&p| Bounds { min: p, max: p }).collect::<Vec<_>>());
         let mut ends = Ends {
             paths,
             grain,
@@ -102,7 +105,7 @@ impl<'a> Ends<'a> {
             join: join + grain.same,
             node_of: (0..spots.len() as u32).collect(),
             spot_degree: degree.clone(),
-            parts: (0..spots.len() as u32).map(|spot| vec![spot]).collect(),
+            parts: Lists::of(spots.len(), 0..spots.len() as u32),
             degree,
             members,
             kept: vec![true; paths.len()],
@@ -113,10 +116,12 @@ impl<'a> Ends<'a> {
             spot_of,
             spots,
         };
-        (0..ends.spots.len()).for_each(|spot| ends.look(spot));
-        ends.drop_dead_ends();
-        ends.merge_nearest_first();
-        ends.settle();
+        if !fits {
+            (0..ends.spots.len()).for_each(|spot| ends.look(spot));
+            ends.drop_dead_ends();
+            ends.merge_nearest_first();
+            ends.settle();
+        }
         ends
     }
 
@@ -147,9 +152,8 @@ impl<'a> Ends<'a> {
     }
 
     fn look_around(&mut self, node: usize) {
-        for i in 0..self.parts[node].len() {
-            self.look(self.parts[node][i] as usize);
-        }
+        let parts: Vec<u32> = self.parts.items(node).collect();
+        parts.into_iter().for_each(|spot| self.look(spot as usize));
     }
 
     /// The nearest spot within reach that a spot may be merged with.
@@ -183,7 +187,7 @@ impl<'a> Ends<'a> {
     }
 
     fn partner_of_node(&self, node: usize) -> Option<Merger> {
-        let spots = self.parts[node].iter().map(|&s| s as usize);
+        let spots = self.parts.items(node).map(|s| s as usize);
         spots.filter(|&s| self.is_looking[s]).filter_map(|s| self.partner(s)).min()
     }
 
@@ -205,12 +209,12 @@ impl<'a> Ends<'a> {
         if self.degree[node] != 1 {
             return None;
         }
-        self.members[node].iter().map(|&e| curve_of(e)).find(|&c| self.kept[c])
+        self.members.items(node).map(curve_of).find(|&c| self.kept[c])
     }
 
     /// Whether no other kept end is within reach of a node, even one that has its partner.
     fn is_alone(&self, node: usize) -> bool {
-        self.parts[node].iter().filter(|&&s| self.spot_degree[s as usize] > 0).all(|&spot| {
+        self.parts.items(node).filter(|&s| self.spot_degree[s as usize] > 0).all(|spot| {
             let p = self.spots[spot as usize];
             let mut alone = true;
             self.tree.walk(
@@ -257,11 +261,10 @@ impl<'a> Ends<'a> {
 
     fn merge(&mut self, merger: Merger) {
         let [a, b] = [merger.from, merger.to].map(|s| self.node_of[s as usize] as usize);
-        let (into, from) = if self.members[a].len() >= self.members[b].len() { (a, b) } else { (b, a) };
-        let (ends, parts) = (std::mem::take(&mut self.members[from]), std::mem::take(&mut self.parts[from]));
-        parts.iter().for_each(|&spot| self.node_of[spot as usize] = into as u32);
-        self.members[into].extend(ends);
-        self.parts[into].extend(parts);
+        let (into, from) = if self.members.len(a) >= self.members.len(b) { (a, b) } else { (b, a) };
+        self.parts.items(from).for_each(|spot| self.node_of[spot as usize] = into as u32);
+        self.members.append(into, from);
+        self.parts.append(into, from);
         self.degree[into] += self.degree[from];
         self.degree[from] = 0;
         self.look_around(into);
@@ -295,7 +298,7 @@ impl<'a> Ends<'a> {
 
     /// The kept ends at a node.
     fn kept_ends(&self, node: usize) -> Vec<End> {
-        self.members[node].iter().copied().filter(|&e| self.kept[curve_of(e)]).collect()
+        self.members.items(node).filter(|&e| self.kept[curve_of(e)]).collect()
     }
 
     /// The cyclic order of the curves at some ends that meet.
@@ -304,45 +307,21 @@ impl<'a> Ends<'a> {
         Fan::new(&elements, self.grain.same)
     }
 
-    /// All nodes as the ends that meet there, in order of their first ends; dropped ones apart.
-    pub fn meetings(&self) -> impl Iterator<Item = (Vec<End>, Vec<End>)> + '_ {
-        let split = |m: &Vec<End>| m.iter().copied().partition(|&e| self.kept[curve_of(e)]);
-        self.members.iter().filter(|m| !m.is_empty()).map(split)
+    /// Visits all nodes as the ends that meet there, in order of their first ends; dropped ones apart.
+    pub fn meetings(&self, mut visit: impl FnMut(&[End], &[End])) {
+        let (mut kept, mut dropped) = (Vec::new(), Vec::new());
+        for node in (0..self.members.count()).filter(|&n| self.members.len(n) > 0) {
+            kept.clear();
+            dropped.clear();
+            for end in self.members.items(node) {
+                if self.kept[curve_of(end)] { kept.push(end) } else { dropped.push(end) }
+            }
+            visit(&kept, &dropped);
+        }
     }
 
     /// Place of an end as drawn, to round-off.
     pub fn place(&self, end: End) -> Point {
         self.spots[self.spot_of[end as usize] as usize]
     }
-}
-
-/// Groups places that are the same to round-off: the group of each and a place of each group.
-pub(super) fn cluster(places: &[Point], grain: Grain) -> (Vec<u32>, Vec<Point>) {
-    let mut id_of = HashMap::with_capacity(places.len());
-    let mut distinct: Vec<Point> = Vec::new();
-    let ids: Vec<u32> = places
-        .iter()
-        .map(|p| {
-            *id_of.entry((p.x.to_bits(), p.y.to_bits())).or_insert_with(|| {
-                distinct.push(*p);
-                distinct.len() as u32 - 1
-            })
-        })
-        .collect();
-    let tree = Index::new(&distinct.iter().map(|&p| Bounds { min: p, max: p }).collect::<Vec<_>>());
-    let mut group_of: Vec<u32> = vec![u32::MAX; distinct.len()];
-    let mut groups = Vec::new();
-    for first in 0..distinct.len() {
-        if group_of[first] != u32::MAX {
-            continue;
-        }
-        // Around the first place of a group only: chains of near places must not run away.
-        tree.meeting(&grain.around(distinct[first]), |other| {
-            if group_of[other as usize] == u32::MAX {
-                group_of[other as usize] = groups.len() as u32;
-            }
-        });
-        groups.push(distinct[first]);
-    }
-    (ids.into_iter().map(|i| group_of[i as usize]).collect(), groups)
 }

@@ -8,7 +8,7 @@ use crate::geom::{Bounds, Point};
 const ULPS: f64 = 16.0;
 
 /// Round-off of the places of one drawing, in job units.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Grain {
     /// Places nearer than this are one place, and curves nearer than this touch.
     pub same: f64,

@@ -65,40 +65,23 @@ impl Index {
     /// The tree over some boxes; items are numbered in their order.
     pub fn new(boxes: &[Bounds]) -> Index {
         let leaves = boxes.len().div_ceil(LEAF).max(1).next_power_of_two();
+        let mut centers: Vec<Center> =
+            boxes.iter().zip(0..).map(|(b, item)| Center { at: b.center().into(), item }).collect();
+        halve(&mut centers, leaves);
+        let items: Vec<u32> = centers.iter().map(|c| c.item).collect();
+        drop(centers);
         let mut index = Index {
-            items: (0..boxes.len() as u32).collect(),
-            boxes: Vec::new(),
+            boxes: items.iter().map(|&i| boxes[i as usize]).collect(),
+            items,
             nodes: vec![Bounds::EMPTY; 2 * leaves - 1],
             first_leaf: leaves - 1,
         };
-        let centers: Vec<[f64; 2]> = boxes.iter().map(|b| b.center().into()).collect();
-        let root = index.root();
-        index.arrange(root, &centers);
-        index.boxes = index.items.iter().map(|&i| boxes[i as usize]).collect();
-        index.enclose(root);
+        index.enclose(index.root());
         index
     }
 
     fn root(&self) -> Node {
         Node { id: 0, from: 0, to: self.items.len() }
-    }
-
-    /// Puts the items of a node in the order of its leaves.
-    fn arrange(&mut self, node: Node, centers: &[[f64; 2]]) {
-        if node.id >= self.first_leaf {
-            return;
-        }
-        let range = &mut self.items[node.from..node.to];
-        let around = Bounds::around(range.iter().map(|&i| centers[i as usize].into()));
-        let axis = if around.extent().x >= around.extent().y { 0 } else { 1 };
-        let [low, high] = node.children();
-        if low.to < node.to {
-            range.select_nth_unstable_by(low.to - node.from, |&a, &b| {
-                centers[a as usize][axis].total_cmp(&centers[b as usize][axis]).then(a.cmp(&b))
-            });
-        }
-        self.arrange(low, centers);
-        self.arrange(high, centers);
     }
 
     fn enclose(&mut self, node: Node) -> Bounds {
@@ -175,6 +158,37 @@ impl Index {
     /// Visits all items whose box meets another box, in no useful order.
     pub fn meeting(&self, query: &Bounds, mut visit: impl FnMut(u32)) {
         self.walk(&mut (), |(), _, b| b.meets(query).then_some(0.0), |(), item| visit(item));
+    }
+}
+
+/// The center of the box of an item. Side by side in memory, they are sorted without looking elsewhere.
+struct Center {
+    at: [f64; 2],
+    item: u32,
+}
+
+/// Items from which on halves are sorted at the same time.
+const PARALLEL: usize = 20_000;
+
+/// Puts items in the order of their leaves.
+fn halve(centers: &mut [Center], leaves: usize) {
+    if leaves == 1 {
+        return;
+    }
+    let extent = Bounds::around(centers.iter().map(|c| c.at.into())).extent();
+    let axis = if extent.x >= extent.y { 0 } else { 1 };
+    let middle = centers.len() / 2;
+    if middle < centers.len() {
+        centers.select_nth_unstable_by(middle, |a, b| {
+            a.at[axis].total_cmp(&b.at[axis]).then(a.item.cmp(&b.item))
+        });
+    }
+    let (low, high) = centers.split_at_mut(middle);
+    if low.len() > PARALLEL {
+        rayon::join(|| halve(low, leaves / 2), || halve(high, leaves / 2));
+    } else {
+        halve(low, leaves / 2);
+        halve(high, leaves / 2);
     }
 }
 

@@ -24,7 +24,7 @@ pub(super) fn meet(a: &Element, b: &Element, same: f64, places: &mut Vec<Point>)
     let from = places.len();
     for (end, other) in [(a.start, b), (a.end, b), (b.start, a), (b.end, a)] {
         let shared = end == other.start || end == other.end;
-        if (shared || other.distance(end) <= same) && !places[from..].contains(&end) {
+        if (shared || is_near(other, end, same)) && !places[from..].contains(&end) {
             places.push(end);
         }
     }
@@ -37,12 +37,20 @@ pub(super) fn meet(a: &Element, b: &Element, same: f64, places: &mut Vec<Point>)
     }
     let ends = places.len();
     for p in curves_meet(a, b, same).into_iter().flatten() {
-        let on_both = [a, b].iter().all(|e| e.distance(p) <= SLACK * same);
+        let on_both = [a, b].iter().all(|e| is_near(e, p, SLACK * same));
         let known = places[from..ends].iter().any(|&end| is_joined(a, b, p, end, same));
         if on_both && !known {
             places.push(p);
         }
     }
+}
+
+/// Whether a place is nearer to an element than `within`.
+fn is_near(e: &Element, p: Point, within: f64) -> bool {
+    // Seen from an arc of at most a half circle, the chord spans a right angle or more: the arc lies
+    // in the circle around the chord.
+    let radius = 0.5 * e.chord().length();
+    p.distance(e.start.midpoint(e.end)) <= radius + within && e.distance(p) <= within
 }
 
 /// The place where two segments cross in their inner parts.

@@ -6,7 +6,8 @@
 
 use super::fan::Fan;
 use super::grain::Grain;
-use crate::geom::{ArcSpline, Element, Point};
+use super::sieve::Sieve;
+use crate::geom::{ArcSpline, Element, Point, Vertex};
 use std::collections::HashMap;
 
 /// A passage of a path through a vertex, or its end there.
@@ -128,10 +129,13 @@ const MIDDLES: f64 = 4.0;
 
 /// For each place that is passed more than once the passages: path and number of the vertex.
 fn passages(paths: &[&ArcSpline]) -> Vec<Vec<(usize, usize)>> {
-    let mut all: Vec<((u64, u64), usize, usize)> = Vec::new();
+    let bits = |v: &Vertex| [v.point.x.to_bits(), v.point.y.to_bits()];
+    let mut sieve = Sieve::new(paths.iter().map(|p| p.vertices.len()).sum());
+    paths.iter().flat_map(|p| &p.vertices).for_each(|v| sieve.note(bits(v)));
+    let mut all: Vec<([u64; 2], usize, usize)> = Vec::new();
     for (path, curve) in paths.iter().enumerate() {
-        let bits = curve.vertices.iter().map(|v| (v.point.x.to_bits(), v.point.y.to_bits()));
-        all.extend(bits.enumerate().map(|(vertex, bits)| (bits, path, vertex)));
+        let passages = curve.vertices.iter().map(bits).enumerate();
+        all.extend(passages.filter(|&(_, b)| !sieve.is_single(b)).map(|(vertex, b)| (b, path, vertex)));
     }
     all.sort_unstable();
     let several = all.chunk_by(|a, b| a.0 == b.0).filter(|group| group.len() > 1);

@@ -7,7 +7,7 @@
 use super::arrange::filed;
 use super::chain::{Contour, OpenChain};
 use super::clean::clean;
-use super::ends::cluster;
+use super::cluster::cluster;
 use super::grain::Grain;
 use super::index::Index;
 use super::tee::settle_on;

@@ -19,12 +19,13 @@
 //!   on the wall.
 //! - Contours that change sides, in a place or along a common stretch, cross. That is a defect, with
 //!   its places, and leaves out the nest. Loops of one contour that are smaller than the reach are
-//!   cut off.
+//!   cut off, and of two contours that overlap by less than the reach one ends on the other.
 
 mod arrange;
 mod assemble;
 mod chain;
 mod clean;
+mod cluster;
 mod crossing;
 mod curve;
 mod duplicate;
@@ -37,12 +38,15 @@ mod grain;
 mod index;
 mod intersect;
 mod junction;
+mod lists;
 mod loose;
 mod nesting;
+mod overlap;
 mod pieces;
 mod pocket;
 mod ray;
 mod regions;
+mod sieve;
 mod simple;
 mod tee;
 

@@ -51,8 +51,9 @@ impl Rays {
     pub fn new<'a>(loops: impl Iterator<Item = (usize, &'a ArcSpline)>) -> Rays {
         let mut pieces = Vec::new();
         for (owner, path) in loops {
-            for element in path.mapped(false, turned).elements() {
-                let owner = owner as u32;
+            let owner = owner as u32;
+            for e in path.elements() {
+                let element = Element { start: turned(e.start), end: turned(e.end), ..e };
                 each_monotone(&element, |element| pieces.push(Piece { element, owner }));
             }
         }
@@ -177,7 +178,7 @@ impl Piece {
 
 /// Cuts an element where it is level or plumb.
 fn each_monotone(element: &Element, mut visit: impl FnMut(Element)) {
-    if element.is_segment() {
+    if element.is_segment() || element.turns_within_a_quadrant() {
         return visit(*element);
     }
     let (angle, sweep) = (element.tangents().0.angle(), element.sweep());

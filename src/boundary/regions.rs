@@ -96,7 +96,7 @@ pub(super) fn pockets(pieces: &[Piece], faces: &Faces, is_chosen: impl Fn(usize)
         }
     }
     for (face, (first, walk)) in walks(pieces, faces, is_chosen) {
-        let loops = simple_loops(&walk).into_iter().map(|path| (first, path));
+        let loops = simple_loops(walk).into_iter().map(|path| (first, path));
         boundaries.entry(face).or_default().extend(loops);
     }
     let mut found: Vec<(usize, Pocket)> = Vec::new();

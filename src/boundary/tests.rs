@@ -137,6 +137,30 @@ fn a_nest_with_a_crossing_is_left_out_and_the_others_stay() {
 }
 
 #[test]
+fn contours_that_overlap_by_less_than_the_reach_end_on_each_other() {
+    let is_mended = |found: &Pockets| {
+        let overlaps = |d: &Defect| matches!(d, Defect::Overlaps { .. });
+        let mut rest = found.defects.iter().filter(|d| !overlaps(d));
+        matches!((rest.next(), rest.next()), (Some(Defect::Healed { count: 1, .. }), None))
+    };
+    let area = |found: &Pockets| found.pockets.iter().map(Pocket::area).sum::<f64>();
+    for by in [0.004, -0.004] {
+        let bar = polygon(&[(8.0, 3.0), (10.0 + by, 3.0), (10.0 + by, 5.0), (8.0, 5.0)]);
+        let found = drawn(&[square(0.0, 0.0, 10.0), bar.reversed()]);
+        let expected = if by > 0.0 { (vec![0], 96.0, true) } else { (vec![1], 96.008, false) };
+        assert_eq!((islands(&found), is_mended(&found)), (expected.0, expected.2), "{:?}", found.defects);
+        assert!((area(&found) - expected.1).abs() < 1e-9, "{}", area(&found));
+    }
+    let beside = drawn(&[square(0.0, 0.0, 4.0), square(3.996, 1.0, 5.0)]);
+    assert!(is_mended(&beside) && islands(&beside) == [0, 0], "{:?}", beside.defects);
+    assert!((area(&beside) - 41.0 + 0.004 * 3.0).abs() < 1e-9, "{}", area(&beside));
+    let round = drawn(&[circle(0.0, 0.0, 5.0), circle(3.004, 0.0, 2.0)]);
+    assert!(is_mended(&round) && islands(&round) == [0], "{:?}", round.defects);
+    let tiny = drawn(&[square(0.0, 0.0, 0.004), square(0.003, 0.001, 0.004)]);
+    assert!(tiny.pockets.is_empty() && tiny.defects.len() == 2);
+}
+
+#[test]
 fn what_lies_in_crossing_contours_is_left_out_with_them() {
     let found = drawn(&[
         square(0.0, 0.0, 10.0),

@@ -230,7 +230,7 @@ impl Element {
     /// Smallest axis-parallel box around the element, wider than exact by round-off at most.
     pub fn bounds(&self) -> Bounds {
         let mut bounds = Bounds::around([self.start, self.end]);
-        if self.bulge != 0.0 {
+        if self.bulge != 0.0 && !self.turns_within_a_quadrant() {
             let (n0, _) = self.normals();
             let sweep = self.sweep();
             let (center, radius) = self.center().expect("an arc has a center");
@@ -246,6 +246,13 @@ impl Element {
             }
         }
         bounds
+    }
+
+    /// Whether the direction of travel is nowhere that of an axis, so that the ends are corners of
+    /// the box; not told of arcs beyond a half circle.
+    pub fn turns_within_a_quadrant(&self) -> bool {
+        let (from, to) = self.tangents();
+        self.bulge.abs() <= 1.0 && from.x * to.x > 0.0 && from.y * to.y > 0.0
     }
 
     /// Area between the element and its chord plus that of the triangle `origin, start, end`,
