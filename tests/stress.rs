@@ -97,6 +97,15 @@ fn an_element_without_a_direction_takes_that_of_its_neighbor() {
     assert!(report.is_right() && report.max_deviation < 1e-12 * pocket.bounds().diagonal(), "{report:?}");
 }
 
+/// Polygons with sides of 1e-8 to 1e-6 of the size, a million sizes away, where coordinates are rounded to
+/// 2e-10 of it: their corners were taken for round-off, and the axis was off by a tenth of the size.
+#[test]
+fn short_sides_far_away_keep_the_corners_that_are_drawn() {
+    for (size, seed) in [(1197, 16), (1783, 13), (1547, 8)] {
+        trial::run("convex", size, seed).unwrap();
+    }
+}
+
 /// Splits element `i` in its middle, and again a given length further on.
 fn insert_short_element(spline: &mut ArcSpline, i: usize, length: f64) {
     let (before, rest) = spline.element(i).split(0.5);
