@@ -341,11 +341,17 @@ fn joint_between(part: &Part, after: &Part, noise: f64) -> Joint {
     }
     let (n0, n1) = (part.end.normal, after.start.normal);
     let (turn, ahead) = (n0.cross(n1), n0.dot(n1));
-    if turn.abs() > direction_error(part, after, noise) + part.unseen + after.unseen {
+    let is_corner = turn.abs() > direction_error(part, after, noise) + part.unseen + after.unseen;
+    // Two elements that turn back by `turn` less than half a turn and bend toward each other by `bend` meet
+    // again at `2 turn / bend`. Between, they lie apart by up to `turn^2 / (2 bend)`.
+    let bend = part.curvature + after.curvature;
+    let is_cusp =
+        ahead < 0.0 && turn * bend > 0.0 && turn * turn <= 2.0 * bend.abs() * TANGENT_ROUNDINGS * noise;
+    if is_corner && !is_cusp {
         if turn > 0.0 { Joint::Convex } else { Joint::Cone }
     } else if ahead > 0.0 {
         Joint::Smooth { same_circle: false }
-    } else if part.curvature + after.curvature < 0.0 {
+    } else if bend < 0.0 {
         // A cusp: the boundary turns back on the left of where it came, the wedge is inside.
         Joint::Convex
     } else {
