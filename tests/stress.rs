@@ -7,6 +7,8 @@ mod agreement;
 mod alike;
 #[path = "support/brute.rs"]
 mod brute;
+#[path = "support/large.rs"]
+mod large;
 #[path = "support/shapes.rs"]
 mod shapes;
 #[path = "support/trial.rs"]
@@ -95,6 +97,28 @@ fn an_element_without_a_direction_takes_that_of_its_neighbor() {
     let level = pocket.medial_axis().expect("an axis").level(0.9005);
     let report = verify::level(pocket.loops(), 0.9005, &level.loops);
     assert!(report.is_right() && report.max_deviation < 1e-12 * pocket.bounds().diagonal(), "{report:?}");
+}
+
+/// Polygons with sides of 1e-8 to 1e-6 of the size, a million sizes away, where coordinates are rounded to
+/// 2e-10 of it: their corners were taken for round-off, and the axis was off by a tenth of the size.
+#[test]
+fn short_sides_far_away_keep_the_corners_that_are_drawn() {
+    for (size, seed) in [(1197, 16), (1783, 13), (1547, 8)] {
+        trial::run("convex", size, seed).unwrap();
+    }
+}
+
+#[test]
+fn the_large_shapes_of_the_benches_have_good_axes() {
+    for kind in large::KINDS {
+        for size in [200, 3000] {
+            let loops = large::make(kind, size);
+            let elements: usize = loops.iter().map(ArcSpline::len).sum();
+            assert!((size / 4..2 * size).contains(&elements), "{kind} of {size}: {elements} elements");
+            let mat = Pocket::from_loops(loops, Tolerance::MM).expect(kind).medial_axis().expect(kind);
+            mat.check().expect(kind);
+        }
+    }
 }
 
 /// Splits element `i` in its middle, and again a given length further on.

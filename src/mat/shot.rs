@@ -2,7 +2,7 @@
 //!
 //! From a joint a disk grows along the normal until it touches the boundary elsewhere. The search
 //! starts from the curvature limit of the sites it is tangent to, tries the contacts of the last
-//! shots (the opposite wall runs backwards along with us), and then asks the hierarchy. Shots are
+//! shots (the opposite wall runs backwards along with us) and the neighbors, and then asks the hierarchy. Shots are
 //! independent; hints live in runs of a fixed length, so the result does not depend on threads.
 
 use super::bvh::{Bvh, SearchDisk};
@@ -22,6 +22,11 @@ pub(super) struct Shot {
 
 /// Joints to a run: long enough that hints pay, short enough to spread over threads.
 const RUN: usize = 512;
+
+/// Sites on either side of a joint that are tried before the search. On a wall that is nearly round they
+/// hold the disk back, and one held back by the far side alone nearly touches all others: the search
+/// would look at every site.
+const NEIGHBORS: usize = 4;
 
 /// Larger than any disk in the unit frame.
 const OUTSIDE: f64 = 2.0;
@@ -86,6 +91,12 @@ fn shoot(sites: &[Site], bvh: &Bvh, joint: u32, hints: &Hints) -> Shot {
         let newest = &sites[hints.0[0] as usize];
         try_site(&mut best, newest.prev);
         try_site(&mut best, newest.next);
+    }
+    let (mut back, mut ahead) = (joint, site.next);
+    for _ in 0..NEIGHBORS {
+        (back, ahead) = (sites[back as usize].prev, sites[ahead as usize].next);
+        try_site(&mut best, back);
+        try_site(&mut best, ahead);
     }
     let disk = |radius: f64| SearchDisk { center: probe.center(radius), radius };
     bvh.search(disk(best.radius), |i| try_site(&mut best, i).then(|| disk(best.radius)));

@@ -262,24 +262,26 @@ fn split_at_extreme(parts: &mut Vec<Part>, direction: Vector) {
 }
 
 /// Turns elements near the round-off, which have no direction of their own, to that of a longer
-/// neighbor, one after the other. Their tilt would hide a corner between the neighbors: either joint
-/// looks smooth for what is known of the short element, but both together need not be.
+/// neighbor, one after the other, where one of them is an arc. Their tilt would hide a corner between
+/// the neighbors: either joint looks smooth for what is known of the short element, but both together
+/// need not be.
 ///
-/// Near the round-off are elements that noise tilts by more than their length: `c noise / l > l`.
-/// Longer ones keep their own direction, or levels beside them would be off by its change.
+/// Longer ones keep their own direction, or levels beside them would be off by its change; so do those
+/// between segments, where a joint is the corner that is drawn, however short they are.
 fn lend_directions(parts: &mut [Part], noise: f64) {
     let n = parts.len();
-    let sliver = (TANGENT_ROUNDINGS * noise).sqrt();
+    let sliver = sliver(noise);
     let beside = |i: usize, forward: bool| if forward { (i + 1) % n } else { (i + n - 1) % n };
     let tilt = |parts: &[Part], from: usize, forward: bool| {
         let to = beside(from, forward);
         let (before, after) = if forward { (from, to) } else { (to, from) };
         let angle = parts[before].end.normal.cross(parts[after].start.normal);
         let is_whole = parts[to].last && parts[beside(to, false)].last;
+        let is_curved = [from, to, beside(to, forward)].iter().any(|&i| parts[i].curvature != 0.0);
         let is_round_off =
             joint_between(&parts[before], &parts[after], noise) == Joint::Smooth { same_circle: false };
         let is_seen = angle.abs() > TANGENT_ROUNDINGS * noise * (1.0 + parts[from].chord.recip());
-        (is_whole && is_round_off && is_seen && parts[to].chord < parts[from].chord.min(sliver))
+        (is_whole && is_curved && is_round_off && is_seen && parts[to].chord < parts[from].chord.min(sliver))
             .then_some(if forward { -angle } else { angle })
     };
     let lends = |&i: &usize| tilt(parts, i, true).is_some() || tilt(parts, i, false).is_some();
@@ -318,6 +320,20 @@ fn share_normals(parts: &mut [Part], noise: f64) -> f64 {
     blur
 }
 
+/// Length below which noise tilts an element by more than that length: `c noise / l > l`.
+fn sliver(noise: f64) -> f64 {
+    (TANGENT_ROUNDINGS * noise).sqrt()
+}
+
+/// Largest angle between two elements that round-off of their ends may have made, by their chords.
+/// Between segments one as short as a sliver counts as it is drawn: if it were smooth for what is known of
+/// its direction, on either side, it would hide the corner between its neighbors.
+fn direction_error(part: &Part, after: &Part, noise: f64) -> f64 {
+    let is_straight = part.curvature == 0.0 && after.curvature == 0.0;
+    let tilt = |l: f64| if is_straight && l < sliver(noise) { 0.0 } else { l.recip() };
+    TANGENT_ROUNDINGS * noise * (1.0 + tilt(part.chord) + tilt(after.chord))
+}
+
 /// How the boundary goes on from one part to the next.
 fn joint_between(part: &Part, after: &Part, noise: f64) -> Joint {
     if !part.last {
@@ -325,12 +341,17 @@ fn joint_between(part: &Part, after: &Part, noise: f64) -> Joint {
     }
     let (n0, n1) = (part.end.normal, after.start.normal);
     let (turn, ahead) = (n0.cross(n1), n0.dot(n1));
-    let error = TANGENT_ROUNDINGS * noise * (1.0 + part.chord.recip() + after.chord.recip());
-    if turn.abs() > error + part.unseen + after.unseen {
+    let is_corner = turn.abs() > direction_error(part, after, noise) + part.unseen + after.unseen;
+    // Two elements that turn back by `turn` less than half a turn and bend toward each other by `bend` meet
+    // again at `2 turn / bend`. Between, they lie apart by up to `turn^2 / (2 bend)`.
+    let bend = part.curvature + after.curvature;
+    let is_cusp =
+        ahead < 0.0 && turn * bend > 0.0 && turn * turn <= 2.0 * bend.abs() * TANGENT_ROUNDINGS * noise;
+    if is_corner && !is_cusp {
         if turn > 0.0 { Joint::Convex } else { Joint::Cone }
     } else if ahead > 0.0 {
         Joint::Smooth { same_circle: false }
-    } else if part.curvature + after.curvature < 0.0 {
+    } else if bend < 0.0 {
         // A cusp: the boundary turns back on the left of where it came, the wedge is inside.
         Joint::Convex
     } else {

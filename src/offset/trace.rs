@@ -99,11 +99,10 @@ impl<'a> Tracer<'a> {
     fn walk_from(&self, first: u32, done: &mut std::collections::HashSet<u32>) -> Vec<Stretch> {
         let mut walk = Vec::new();
         let mut entering = first;
+        let mut center = self.crossing(self.piece(first).edge);
         loop {
-            let edge = self.piece(entering).edge;
-            done.insert(edge);
+            done.insert(self.piece(entering).edge);
             let piece = self.piece(entering).piece;
-            let center = self.crossing(edge);
             let foot = self.foot_below(&piece, center);
             self.add(&mut walk, piece.site, foot, piece.to, Some(center));
             let mut at = self.piece(entering).next;
@@ -111,7 +110,8 @@ impl<'a> Tracer<'a> {
             loop {
                 let BoundaryPiece { piece, next, edge } = *self.piece(at);
                 if edge != NONE && self.entering(edge).is_some() {
-                    let foot = self.foot_below(&piece, self.crossing(edge));
+                    center = self.crossing(edge);
+                    let foot = self.foot_below(&piece, center);
                     self.add(&mut walk, piece.site, piece.from, foot, None);
                     let pieces = self.edge(edge).pieces;
                     entering = if pieces[0] == at { pieces[1] } else { pieces[0] };

@@ -23,8 +23,6 @@ pub struct Figures {
     pub far: f64,
     /// Sites of the pocket that both builders were given: without its islands, which are for one alone.
     pub divided: usize,
-    /// Ways of drawing in which the directions of its elements would be lost.
-    pub left_out: usize,
 }
 
 /// The figures of one random shape, or what is wrong with it.
@@ -47,12 +45,7 @@ pub fn trial(loops: &[ArcSpline], seed: u64) -> Result<Figures, String> {
         divided: divided(loops, &mat).map_err(|e| format!("division: {e}"))?,
         ..Figures::default()
     };
-    let shortest = loops.iter().flat_map(|l| l.elements()).map(|e| e.length()).fold(f64::INFINITY, f64::min);
     for way in &ways(&pocket) {
-        if shortest < way.shortest() * pocket.bounds().diagonal() {
-            figures.left_out += 1;
-            continue;
-        }
         let off = way.deviation(loops, &pocket, &mat).map_err(|e| format!("{}: {e}", way.name))?;
         let figure = if way.coarser > 1.0 { &mut figures.far } else { &mut figures.alike };
         *figure = figure.max(off);
@@ -150,16 +143,7 @@ fn restarted(mut loops: Vec<ArcSpline>) -> Vec<ArcSpline> {
     loops
 }
 
-/// Roundings in the direction of an element, at its two ends.
-const DIRECTION_ROUNDINGS: f64 = 16.0;
-
 impl Way {
-    /// Length, relative to the size, that elements must have to be drawn this way: where round-off
-    /// tilts them by more than their own length, corners are other corners.
-    fn shortest(&self) -> f64 {
-        (DIRECTION_ROUNDINGS * f64::EPSILON * self.coarser).sqrt()
-    }
-
     /// How far the axis of a pocket drawn this way is from the axis as it was, relative to the size.
     fn deviation(&self, loops: &[ArcSpline], pocket: &Pocket, mat: &Mat) -> Result<f64, String> {
         let drawn = loops.iter().map(|l| l.mapped(self.mirrored, &self.place)).collect();
