@@ -83,12 +83,7 @@ impl Course {
             return self;
         }
         if !self.closed {
-            if place.element > 0 {
-                self.elements.reverse();
-                self.elements.iter_mut().for_each(|e| *e = e.reversed());
-                self.start = self.elements[0].start;
-            }
-            return self;
+            return if place.element > 0 { self.turned() } else { self };
         }
         let i = place.element;
         let e = self.elements[i];
@@ -105,6 +100,14 @@ impl Course {
             self.elements.push(before);
         }
         self.start = self.elements[0].start;
+        self
+    }
+
+    /// The same course from its end to its start.
+    pub fn turned(mut self) -> Course {
+        self.elements.reverse();
+        self.elements.iter_mut().for_each(|e| *e = e.reversed());
+        self.start = self.elements.first().map_or(self.start, |e| e.start);
         self
     }
 

@@ -71,6 +71,8 @@ pub struct Job {
     pub floor_stock: f64,
     /// Where positive: material that roughing leaves on the wall for one more pass at full depth.
     pub finish: f64,
+    /// How often the wall passes are run once more at the floor, where the tool was bent away.
+    pub spring: u32,
     /// On which side the uncut stock lies.
     pub direction: Direction,
     /// The pattern of the passes.
@@ -108,6 +110,7 @@ impl Job {
             stock: 0.0,
             floor_stock: 0.0,
             finish: 0.0,
+            spring: 0,
             direction: Direction::Climb,
             strategy: Strategy::Offset,
             start: Start::Inside,
@@ -156,6 +159,11 @@ impl Job {
         require("retract", self.retract, self.retract <= self.clearance, "at most the clearance")
     }
 
+    /// Height of the floor that is cut.
+    pub(super) fn floor(&self) -> f64 {
+        self.top - self.depth + self.floor_stock
+    }
+
     /// Radius of the tool.
     pub fn radius(&self) -> f64 {
         0.5 * self.tool
@@ -189,7 +197,7 @@ impl Job {
         let step_down = self.step_down.unwrap_or(if self.tool > 0.0 { self.radius() } else { depth });
         let quotient = depth / step_down;
         let count = (quotient * (1.0 - QUOTIENT_ERROR)).ceil().max(1.0);
-        let floor = self.top - self.depth + self.floor_stock;
+        let floor = self.floor();
         let height = |i: f64| if i == count { floor } else { self.top - depth * (i / count) };
         (1..=count.min(MAX_HEIGHTS as f64) as u64).map(|i| height(i as f64)).collect()
     }

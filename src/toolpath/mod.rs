@@ -6,7 +6,7 @@
 //!
 //! **Needs** the medial axes of the pockets and a [`Job`]: a tool and what it shall do.
 //! **Guarantees** that the tool stays in the pocket, that all it can reach is cut at every height,
-//! and that rapids never meet stock. The order of pockets is that given.
+//! and that rapids never meet stock. Pockets follow one another by short ways (`route`).
 //!
 //! **Method.** Levels lie at tool radius + stock and on from there in equal steps, until nothing is
 //! left. Loops of neighboring levels are paired (`nest`) and cut in chains, from the inside out or
@@ -29,6 +29,7 @@ mod nest;
 mod path;
 mod plan;
 mod roads;
+mod route;
 mod run;
 #[cfg(test)]
 mod tests;

@@ -3,9 +3,10 @@
 use super::cutter::Totals;
 use super::job::MAX_HEIGHTS;
 use super::plan::{Crests, IsClear, MAX_MOVES, Planner};
+use super::route::route;
 use super::{Job, Move, Warning};
 use crate::error::Error;
-use crate::geom::Element;
+use crate::geom::{Element, Point};
 use crate::mat::{Disk, Mat};
 use crate::offset::Level;
 use rayon::prelude::*;
@@ -23,7 +24,7 @@ const LEVELS_AT_ONCE: u64 = 256;
 pub struct Path {
     /// The moves; none when the tool diameter is 0.
     pub moves: Vec<Move>,
-    /// The pockets, in the order given.
+    /// The pockets, in the order given; they are cut in an order of short ways between them.
     pub pockets: Vec<PocketPath>,
     /// Lengths, counts and time.
     pub totals: Totals,
@@ -85,9 +86,9 @@ impl Job {
         let mut path = Path::default();
         self.note_step(&mut path);
         let mut planner = Planner::new(self);
-        for (pocket, (mat, levels)) in mats.iter().zip(levels).enumerate() {
+        for (pocket, (mat, levels)) in mats.iter().zip(&levels).enumerate() {
             let (largest, neck) = (mat.largest_disk(), mat.narrowest_neck());
-            let mut own = PocketPath {
+            let own = PocketPath {
                 largest_tool: 2.0 * (largest.radius - self.stock),
                 unreachable_area: mat.unreachable_area(self.wall_distance()),
                 narrowest_neck: neck.map(|d| 2.0 * d.radius),
@@ -95,28 +96,40 @@ impl Job {
                 ..PocketPath::default()
             };
             self.note_room(&mut path, pocket, &own, largest, neck);
-            let is_clear = |link: &Element, radius: f64| mat.is_clear(link, radius);
-            self.cut(&mut planner, &mut own, levels, (&is_clear, mat))?;
             path.pockets.push(own);
         }
+        for pocket in self.order(mats, &path.pockets) {
+            let mat = &mats[pocket];
+            let is_clear = |link: &Element, radius: f64| mat.is_clear(link, radius);
+            self.cut(&mut planner, &mut path.pockets[pocket], &levels[pocket], (&is_clear, mat))?;
+        }
+        for (own, levels) in path.pockets.iter_mut().zip(levels) {
+            own.levels = levels;
+        }
         self.conclude(path, planner)
+    }
+
+    /// In which order pockets are cut.
+    fn order(&self, mats: &[Mat], pockets: &[PocketPath]) -> Vec<usize> {
+        let machined: Vec<usize> = (0..pockets.len()).filter(|&i| pockets[i].machined).collect();
+        let places: Vec<Point> = machined.iter().map(|&i| mats[i].largest_disk().center).collect();
+        route(&places).into_iter().map(|i| machined[i]).collect()
     }
 
     fn cut(
         &self,
         planner: &mut Planner,
         own: &mut PocketPath,
-        levels: Vec<Level>,
+        levels: &[Level],
         (is_clear, mat): (&IsClear, &Mat),
     ) -> Result<(), Error> {
         let before = planner.cutter.moves.len();
         if self.tool > 0.0 && own.machined {
             planner.crests = Crests::default();
-            own.passes = planner.pocket(&levels, is_clear, Some(mat))?;
+            own.passes = planner.pocket(levels, is_clear, Some(mat))?;
             (own.crests, own.crest_length) = (planner.crests.count, planner.crests.length);
         }
         own.moves = before..planner.cutter.moves.len();
-        own.levels = levels;
         Ok(())
     }
 

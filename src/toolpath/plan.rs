@@ -187,8 +187,23 @@ impl<'a> Planner<'a> {
             None => self.approach(ground, (pass, rest), course, height)?,
         };
         self.run(ground, pass, &course)?;
+        if ground.nest.passes[pass].level == 0 && height.z == self.job.floor() {
+            self.spring(course)?;
+        }
         ground.done[pass] = true;
         ground.last = Some(pass);
+        Ok(())
+    }
+
+    /// Once more along a wall, as often as asked: round, or back and forth.
+    fn spring(&mut self, mut course: Course) -> Result<(), Error> {
+        for _ in 0..self.job.spring {
+            self.afford(course.elements.len() as u64)?;
+            if !course.closed {
+                course = course.turned();
+            }
+            course.elements.iter().for_each(|e| self.cutter.cut(e));
+        }
         Ok(())
     }
 

@@ -227,6 +227,21 @@ fn a_finishing_pass_runs_once_at_the_floor() {
 }
 
 #[test]
+fn spring_passes_run_along_the_wall_again_at_the_floor_only() {
+    for finish in [0.0, 0.5] {
+        let cut = |spring: u32| {
+            let job = Job { finish, spring, ..job() };
+            let planned = plan(square_level, depth_in_square, &job);
+            is_safe(&planned, depth_in_square, &job);
+            (planned.totals.cut_length, planned.totals.retracts)
+        };
+        let (once, thrice) = (cut(0), cut(2));
+        assert!((thrice.0 - once.0 - 2.0 * 64.0).abs() < 1e-9);
+        assert_eq!(thrice.1, once.1);
+    }
+}
+
+#[test]
 fn a_slot_as_wide_as_the_tool_is_run_to_and_fro() {
     fn slot(d: f64) -> Level {
         let ridge = ArcSpline::open([(0.0, 0.0, 0.0), (10.0, 0.0, 0.0)]);

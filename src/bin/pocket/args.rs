@@ -86,6 +86,10 @@ pub struct Args {
     #[arg(long, value_name = "LENGTH", value_parser = at_least_0, help_heading = "Tool and passes")]
     pub finish: Option<Length>,
 
+    /// Run the wall passes at the floor this often once more
+    #[arg(long, value_name = "N", default_value_t = 0, help_heading = "Tool and passes")]
+    pub spring: u32,
+
     /// Side of the uncut stock: on the right (climb) or left of the motion
     #[arg(long, value_enum, default_value_t, help_heading = "Tool and passes")]
     pub direction: DirectionArg,
