@@ -128,7 +128,7 @@ impl<'a> Tracer<'a> {
 
     /// Foot of a crossing on the carrier of a piece: where a neck is flat, the crossing may lie beyond
     /// the piece by the root of round-off, and its normal must be the one it really has.
-    fn foot_below(&self, piece: &Piece, crossing: Point) -> Foot {
+    pub fn foot_below(&self, piece: &Piece, crossing: Point) -> Foot {
         let (distance, normal) = self.site(piece).carrier_distance(crossing);
         Foot { point: crossing - normal * distance, normal }
     }
