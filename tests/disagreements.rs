@@ -12,7 +12,7 @@ use medial::{ArcSpline, DisagreementKind, Mat, Party, Pocket, Tolerance, point};
 fn shape(loops: &[ArcSpline]) -> Shape<f64> {
     Shape::from_plines(loops.iter().map(|l| {
         let mut polyline = Polyline::new_closed();
-        l.vertices.iter().for_each(|v| _ = polyline.add(v.point.x, v.point.y, v.bulge));
+        l.vertices.iter().for_each(|v| polyline.add(v.point.x, v.point.y, v.bulge));
         polyline
     }))
 }

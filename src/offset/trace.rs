@@ -61,7 +61,7 @@ impl<'a> Tracer<'a> {
                 walks.push(self.whole_ring(first));
             }
         }
-        let mut done = std::collections::HashSet::new();
+        let mut done = Marks::up_to(self.edges.last().copied());
         for &edge in &self.edges {
             if let Some(entering) = self.entering(edge)
                 && !done.contains(&edge)
@@ -96,7 +96,7 @@ impl<'a> Tracer<'a> {
     }
 
     /// The walk that begins where the level crosses the edge of `first` into the inside.
-    fn walk_from(&self, first: u32, done: &mut std::collections::HashSet<u32>) -> Vec<Stretch> {
+    fn walk_from(&self, first: u32, done: &mut Marks) -> Vec<Stretch> {
         let mut walk = Vec::new();
         let mut entering = first;
         loop {
@@ -156,5 +156,23 @@ impl<'a> Tracer<'a> {
         }
         let start = crossing.unwrap_or(from.point + from.normal * self.d);
         walk.push(Stretch { site, turn, from, to, start, at_crossing: crossing.is_some() });
+    }
+}
+
+/// A set of ids, a bit for each.
+struct Marks(Vec<u64>);
+
+impl Marks {
+    /// Empty, for ids up to a largest one.
+    fn up_to(largest: Option<u32>) -> Marks {
+        Marks(vec![0; largest.map_or(0, |id| id as usize / 64 + 1)])
+    }
+
+    fn insert(&mut self, id: u32) {
+        self.0[id as usize / 64] |= 1 << (id % 64);
+    }
+
+    fn contains(&self, id: &u32) -> bool {
+        self.0[*id as usize / 64] & (1 << (id % 64)) != 0
     }
 }

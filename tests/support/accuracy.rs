@@ -7,9 +7,8 @@
 
 #[path = "../../benches/peers/shapes.rs"]
 mod machined;
-#[path = "shapes.rs"]
-mod random;
 
+use machined::random;
 use medial::io::dxf::{ReadOptions, read};
 use medial::verify::Boundary;
 use medial::{ArcSpline, Bounds, Pocket, Pockets, Tolerance, point};
