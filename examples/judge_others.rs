@@ -17,7 +17,7 @@ const SAG: f64 = 0.005;
 fn by_cavalier_contours(loops: &[ArcSpline], distance: f64) -> Vec<ArcSpline> {
     let polylines = loops.iter().map(|l| {
         let mut polyline = Polyline::new_closed();
-        l.vertices.iter().for_each(|v| _ = polyline.add(v.point.x, v.point.y, v.bulge));
+        l.vertices.iter().for_each(|v| polyline.add(v.point.x, v.point.y, v.bulge));
         polyline
     });
     let offset = Shape::from_plines(polylines).parallel_offset(distance, &ShapeOffsetOptions::new());

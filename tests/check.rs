@@ -97,8 +97,11 @@ impl Desk {
     }
 }
 
-/// Faults of a kind at the only level: place, deviation, length, area.
-fn faults(report: &Value, kind: &str) -> Vec<([f64; 2], f64, f64, f64)> {
+/// A fault: place, deviation, length, area.
+type Found = ([f64; 2], f64, f64, f64);
+
+/// Faults of a kind at the only level.
+fn faults(report: &Value, kind: &str) -> Vec<Found> {
     let number = |v: &Value| v.as_f64().unwrap();
     let fault = |f: &Value| {
         let at = [number(&f["at"][0]), number(&f["at"][1])];
@@ -108,7 +111,7 @@ fn faults(report: &Value, kind: &str) -> Vec<([f64; 2], f64, f64, f64)> {
 }
 
 /// What is told of offsets at 2 that are wrong: missing parts and phantom parts.
-fn wrong(offsets: &[Loop]) -> [Vec<([f64; 2], f64, f64, f64)>; 2] {
+fn wrong(offsets: &[Loop]) -> [Vec<Found>; 2] {
     let (report, exit) = Desk::new(offsets).report(&["--distance", "2"]);
     assert_eq!((report["right"].as_bool(), exit), (Some(false), 3), "{report}");
     assert!(report["levels"][0]["other"].as_array().unwrap().is_empty(), "{report}");

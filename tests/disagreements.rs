@@ -12,7 +12,7 @@ use medial::{ArcSpline, DisagreementKind, Mat, Party, Pocket, Tolerance, point};
 fn shape(loops: &[ArcSpline]) -> Shape<f64> {
     Shape::from_plines(loops.iter().map(|l| {
         let mut polyline = Polyline::new_closed();
-        l.vertices.iter().for_each(|v| _ = polyline.add(v.point.x, v.point.y, v.bulge));
+        l.vertices.iter().for_each(|v| polyline.add(v.point.x, v.point.y, v.bulge));
         polyline
     }))
 }
@@ -88,9 +88,9 @@ fn a_plate_in_meters_is_too_small_for_cavalier_contours() {
     let (mut in_meters, mut in_millimeters) = (Theirs::default(), Theirs::default());
     for (scale, theirs) in [(1e-3, &mut in_meters), (1.0, &mut in_millimeters)] {
         let place = |p: medial::Point| point(scale * p.x, scale * p.y);
-        let loops: Vec<_> = machined::make("plate", 300).iter().map(|l| l.mapped(false, place)).collect();
+        let loops: Vec<_> = machined::make("plate", 960).iter().map(|l| l.mapped(false, place)).collect();
         let (boundary, mat) = (Boundary::new(&loops), axis(&loops));
-        for d in [0.5, 1.4, 2.3, 3.7].map(|d| scale * d) {
+        for d in [0.28, 0.84, 1.4, 2.8, 4.2, 5.6].map(|d| scale * d) {
             let offset = shape(&loops).parallel_offset(d, &ShapeOffsetOptions::new());
             theirs.take(&boundary, &mat, d, &splines(&offset), 1e-3 * scale);
         }

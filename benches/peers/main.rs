@@ -23,6 +23,9 @@ use std::time::Instant;
 /// Seconds after which a library is asked for no more levels.
 const PATIENCE: f64 = 20.0;
 
+/// Seconds that a library runs at least: the system counts in ticks of a few milliseconds.
+const STEADY: f64 = 0.4;
+
 /// Most elements of a level for which the judge also looks for what is missing.
 const JUDGED: usize = 50_000;
 
@@ -92,23 +95,32 @@ fn compare(name: &str, size: usize, count: usize) {
 /// Distances with their curves.
 type Made = Vec<(f64, Vec<ArcSpline>)>;
 
-/// The time that a library takes for all levels, and those that it made.
+/// The time that a library takes for all levels, and those that it made: the mean of as many runs as
+/// make [`STEADY`] seconds.
 fn run(peer: &Peer, loops: &[ArcSpline], distances: &[f64]) -> (f64, Made) {
     let start = seconds();
+    let (mut sum, made) = run_once(peer, loops, distances);
+    let mut runs = 1;
+    while seconds() - start < STEADY {
+        sum += run_once(peer, loops, distances).0;
+        runs += 1;
+    }
+    (sum / f64::from(runs), made)
+}
+
+fn run_once(peer: &Peer, loops: &[ArcSpline], distances: &[f64]) -> (f64, Made) {
+    let start = seconds();
     let mut levels = (peer.start)(loops);
-    let prepared = seconds() - start;
+    let prepared = seconds();
     let mut made = Vec::new();
-    let mut time = 0.0;
     for &d in distances {
-        let before = seconds();
-        let curves = levels(d);
-        time += seconds() - before;
-        made.push((d, curves));
-        if prepared + time > PATIENCE {
+        made.push((d, levels(d)));
+        if seconds() - start > PATIENCE {
             break;
         }
     }
-    (prepared + time * distances.len() as f64 / made.len().max(1) as f64, made)
+    let share = distances.len() as f64 / made.len().max(1) as f64;
+    (prepared - start + (seconds() - prepared) * share, made)
 }
 
 /// Worst deviation, number of wrong places, and what the judge says.

@@ -43,7 +43,7 @@ fn medial(loops: &[ArcSpline]) -> Levels<'_> {
 
 fn polyline(spline: &ArcSpline) -> Polyline<f64> {
     let mut polyline = Polyline::new_closed();
-    spline.vertices.iter().for_each(|v| _ = polyline.add(v.point.x, v.point.y, v.bulge));
+    spline.vertices.iter().for_each(|v| polyline.add(v.point.x, v.point.y, v.bulge));
     polyline
 }
 

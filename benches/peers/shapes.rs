@@ -6,7 +6,7 @@
 #![allow(dead_code)]
 
 #[path = "../../tests/support/shapes.rs"]
-mod random;
+pub mod random;
 
 use medial::{ArcSpline, Point, Vector, Vertex, point, vector};
 use random::{Random, biarc, polygon};

@@ -2,9 +2,9 @@
 
 use super::ridge::Ridge;
 use super::trace::{Stretch, Tracer};
-use super::united::overlap;
-use crate::geom::{ArcSpline, Element, Point, Vertex};
-use crate::mat::{Mat, Sets};
+use super::united::{Facing, overlap};
+use crate::geom::{ArcSpline, Element, Point, Vector, Vertex};
+use crate::mat::{GraphEdge, Mat, Sets};
 use std::f64::consts::{PI, TAU};
 
 impl Mat {
@@ -61,27 +61,31 @@ impl Tracer<'_> {
                 vertices.push(Vertex { point: stretch.from.point, bulge: (0.25 * stretch.turn).tan() });
             }
             if next.at_crossing {
-                let turn = stretch.to.normal.angle_to(next.from.normal).rem_euclid(TAU);
+                let turn = facing_turn(stretch.to.normal, next.from.normal);
                 vertices.push(Vertex { point: stretch.to.point, bulge: (0.25 * turn).tan() });
             }
         }
         ArcSpline { vertices, closed: true }
     }
 
-    /// Area that disks about crossings share where the ends of an unreachable place face each other.
+    /// Area that is reached more than once where the ends of an unreachable place face each other.
     fn overlap(&self) -> f64 {
-        let mut neck_of: std::collections::BTreeMap<u32, Vec<Point>> = std::collections::BTreeMap::new();
+        let mut place_of: std::collections::BTreeMap<u32, Vec<Facing>> = std::collections::BTreeMap::new();
         let outside = self.outside_components();
         for &edge in &self.edges {
-            let disks = self.mat.graph.edges[edge as usize].disks;
-            let out = match disks.map(|v| self.is_inside(v)) {
-                [false, true] => disks[0],
-                [true, false] => disks[1],
+            let GraphEdge { disks, pieces } = self.mat.graph.edges[edge as usize];
+            let (out, [leaving, entering]) = match disks.map(|v| self.is_inside(v)) {
+                [false, true] => (disks[0], [pieces[1], pieces[0]]),
+                [true, false] => (disks[1], pieces),
                 _ => continue,
             };
-            neck_of.entry(outside[out as usize]).or_default().push(self.crossing(edge));
+            let center = self.crossing(edge);
+            let normal = |p: u32| self.foot_below(&self.mat.graph.pieces[p as usize].piece, center).normal;
+            let (to, from) = (normal(leaving), normal(entering));
+            let arc = Facing { center, from: (-to.y).atan2(-to.x), sweep: facing_turn(to, from) };
+            place_of.entry(outside[out as usize]).or_default().push(arc);
         }
-        neck_of.values().map(|ends| overlap(ends, self.d)).sum()
+        place_of.values().map(|arcs| overlap(arcs, self.d, self.mat.graph.error)).sum()
     }
 
     /// Component of the axis with radius up to `d` that each vertex lies in.
@@ -96,4 +100,11 @@ impl Tracer<'_> {
         }
         (0..graph.disks.len() as u32).map(|i| outside.find(i)).collect()
     }
+}
+
+/// Angle of the arc about a crossing, on the side where the radius falls: a half turn at most, as both
+/// feet lie ahead. Round-off may have made it a little less than nothing, or more than a half turn.
+fn facing_turn(from: Vector, to: Vector) -> f64 {
+    let turn = from.angle_to(to);
+    if turn < -0.5 * PI { turn + TAU } else { turn.max(0.0) }
 }

@@ -1,7 +1,7 @@
 //! Walking around what lies farther from the boundary than a distance.
 
 use crate::geom::Point;
-use crate::mat::{BoundaryPiece, Foot, GraphEdge, Mat, NONE, Piece, Site, Track, falling_root};
+use crate::mat::{BoundaryPiece, Foot, GraphEdge, Mat, NONE, Piece, Site};
 
 /// A stretch of the boundary whose offset is part of the level set, within one site.
 #[derive(Clone, Copy, Debug)]
@@ -35,11 +35,11 @@ impl<'a> Tracer<'a> {
         self.mat.graph.disks[vertex as usize].radius > self.d + self.mat.graph.error
     }
 
-    fn edge(&self, id: u32) -> &GraphEdge {
+    pub(super) fn edge(&self, id: u32) -> &GraphEdge {
         &self.mat.graph.edges[id as usize]
     }
 
-    fn piece(&self, id: u32) -> &BoundaryPiece {
+    pub(super) fn piece(&self, id: u32) -> &BoundaryPiece {
         &self.mat.graph.pieces[id as usize]
     }
 
@@ -61,7 +61,7 @@ impl<'a> Tracer<'a> {
                 walks.push(self.whole_ring(first));
             }
         }
-        let mut done = std::collections::HashSet::new();
+        let mut done = Marks::up_to(self.edges.last().copied());
         for &edge in &self.edges {
             if let Some(entering) = self.entering(edge)
                 && !done.contains(&edge)
@@ -96,7 +96,7 @@ impl<'a> Tracer<'a> {
     }
 
     /// The walk that begins where the level crosses the edge of `first` into the inside.
-    fn walk_from(&self, first: u32, done: &mut std::collections::HashSet<u32>) -> Vec<Stretch> {
+    fn walk_from(&self, first: u32, done: &mut Marks) -> Vec<Stretch> {
         let mut walk = Vec::new();
         let mut entering = first;
         let mut center = self.crossing(self.piece(first).edge);
@@ -128,12 +128,12 @@ impl<'a> Tracer<'a> {
 
     /// Foot of a crossing on the carrier of a piece: where a neck is flat, the crossing may lie beyond
     /// the piece by the root of round-off, and its normal must be the one it really has.
-    fn foot_below(&self, piece: &Piece, crossing: Point) -> Foot {
+    pub fn foot_below(&self, piece: &Piece, crossing: Point) -> Foot {
         let (distance, normal) = self.site(piece).carrier_distance(crossing);
         Foot { point: crossing - normal * distance, normal }
     }
 
-    fn site(&self, piece: &Piece) -> &Site {
+    pub(super) fn site(&self, piece: &Piece) -> &Site {
         &self.mat.sites[piece.site as usize]
     }
 
@@ -157,54 +157,22 @@ impl<'a> Tracer<'a> {
         let start = crossing.unwrap_or(from.point + from.normal * self.d);
         walk.push(Stretch { site, turn, from, to, start, at_crossing: crossing.is_some() });
     }
+}
 
-    /// Where on an edge the radius is `d`: the same place for both sides.
-    pub fn crossing(&self, edge: u32) -> Point {
-        let e = self.edge(edge);
-        let [a, b] = e.pieces.map(|p| self.piece(p).piece);
-        let extent = |p: &Piece| p.from.point.distance(p.to.point);
-        let swap = extent(&b) > extent(&a);
-        let (along, across) = if swap { (&b, &a) } else { (&a, &b) };
-        let radius_at = |end: usize| self.mat.graph.disks[e.disks[end] as usize].radius;
-        let falls = (radius_at(0) > radius_at(1)) != swap;
-        let track = Track::of(&self.mat.sites, along);
-        let radius = |t: f64| track.reach(&self.mat.sites, across, &track.at(t)).0;
-        let sign = if falls { 1.0 } else { -1.0 };
-        let t = falling_root(0.0, 1.0, |t| {
-            sign * if radius(t).is_finite() { radius(t) - self.d } else { self.d }
-        });
-        // The place at this distance from the one side is exact; the other's is made so as well.
-        let start = track.at(t).center(self.d);
-        self.polished(e, [self.site(&a), self.site(&b)], start)
+/// A set of ids, a bit for each.
+struct Marks(Vec<u64>);
+
+impl Marks {
+    /// Empty, for ids up to a largest one.
+    fn up_to(largest: Option<u32>) -> Marks {
+        Marks(vec![0; largest.map_or(0, |id| id as usize / 64 + 1)])
     }
 
-    /// Whether a place can lie on an edge, but for round-off. The edge turns by a quarter at most, so it
-    /// is nowhere farther from one end than the other end is; and `s` beyond the end of a wall the
-    /// distance to it is no more than `s^2 / 2d` larger.
-    fn may_hold(&self, edge: &GraphEdge, c: Point) -> bool {
-        let ends = edge.disks.map(|d| self.mat.graph.disks[d as usize].center);
-        let longest = ends[0].distance(ends[1]) + (2.0 * self.d * self.mat.graph.error).sqrt();
-        ends.iter().all(|end| end.distance(c) <= longest)
+    fn insert(&mut self, id: u32) {
+        self.0[id as usize / 64] |= 1 << (id % 64);
     }
 
-    /// Newton's step for a place at distance `d` from two carriers, while it helps. Between walls that
-    /// are parallel but for round-off it may lead anywhere along them, and must not leave the edge.
-    fn polished(&self, edge: &GraphEdge, sites: [&Site; 2], mut c: Point) -> Point {
-        let residuals = |c: Point| sites.map(|s| s.carrier_distance(c)).map(|(s, n)| (self.d - s, n));
-        let worst = |r: &[(f64, crate::geom::Vector); 2]| r[0].0.abs().max(r[1].0.abs());
-        let mut now = residuals(c);
-        while worst(&now) > f64::EPSILON * self.d {
-            let [(e0, n0), (e1, n1)] = now;
-            let det = n0.cross(n1);
-            let step = crate::geom::vector((e0 * n1.y - e1 * n0.y) / det, (e1 * n0.x - e0 * n1.x) / det);
-            let next = c + step;
-            let after = residuals(next);
-            let converges = worst(&after) < 0.5 * worst(&now) && self.may_hold(edge, next);
-            if !converges {
-                break;
-            }
-            (c, now) = (next, after);
-        }
-        c
+    fn contains(&self, id: &u32) -> bool {
+        self.0[*id as usize / 64] & (1 << (id % 64)) != 0
     }
 }

@@ -7,9 +7,8 @@
 
 #[path = "../../benches/peers/shapes.rs"]
 mod machined;
-#[path = "shapes.rs"]
-mod random;
 
+use machined::random;
 use medial::io::dxf::{ReadOptions, read};
 use medial::verify::Boundary;
 use medial::{ArcSpline, Bounds, Pocket, Pockets, Tolerance, point};
@@ -91,11 +90,15 @@ fn deviation(pocket: &Pocket, scale: f64, shift: f64) -> f64 {
     SHARES.par_iter().map(off).reduce(|| 0.0, f64::max) / size
 }
 
+/// Two units in the last place of the size: a coordinate alone is rounded by a quarter of that, and what
+/// is less is luck.
+const LEAST: f64 = 5e-16;
+
 /// The next of 1, 2, 5, 10 ... that is no smaller: what is written down, so that another machine, with
 /// another sine, does not fail by a bit.
 pub fn rounded_up(value: f64) -> f64 {
-    if value <= 0.0 {
-        return 1e-17;
+    if value <= LEAST {
+        return LEAST;
     }
     let decade = 10f64.powi(value.log10().floor() as i32);
     [1.0, 2.0, 5.0, 10.0].into_iter().map(|m| m * decade).find(|&m| m >= value).unwrap_or(10.0 * decade)
