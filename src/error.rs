@@ -26,6 +26,14 @@ pub enum Error {
         /// What was found instead.
         reason: String,
     },
+    /// The drawing claims a unit in which no part is drawn.
+    #[error("{path} is drawn in {unit}, a unit in which no part is drawn")]
+    Unit {
+        /// Which file.
+        path: String,
+        /// Name of the unit.
+        unit: &'static str,
+    },
     /// The drawing holds nothing that can be machined.
     #[error("nothing to machine: {reason}")]
     NothingToMachine {
@@ -88,7 +96,7 @@ pub enum Error {
 #[non_exhaustive]
 pub enum Defect {
     /// A chain of curves that does not close.
-    #[error("open contour from {start} to {end}, a gap of {gap:.4}")]
+    #[error("open contour from {start} to {end}{}, a gap of {}", if *inside { " in a pocket" } else { "" }, digits(*gap))]
     OpenContour {
         /// One end.
         start: Point,
@@ -174,6 +182,13 @@ pub enum Defect {
     },
 }
 
+/// A length with four decimals, or with three digits where it is small: a reach a hundredth wider than a
+/// gap is wider when it is read, too.
+fn digits(length: f64) -> String {
+    let decimals = (2.0 - length.log10().floor()).clamp(4.0, 15.0) as usize;
+    format!("{length:.decimals$}")
+}
+
 /// A number with the word for what is counted.
 fn counted(count: usize, one: &str, many: &str) -> String {
     format!("{count} {}", if count == 1 { one } else { many })
@@ -207,7 +222,7 @@ impl Defect {
     pub fn help(&self) -> String {
         match self {
             Defect::OpenContour { gap, .. } => {
-                format!("close the contour in the drawing, or try --join {:.4}", gap * 1.01)
+                format!("close the contour in the drawing, or try --join {}", digits(gap * 1.01))
             }
             Defect::Duplicates { .. } => "nothing to do; equal curves count once".into(),
             Defect::Overlaps { .. } => "nothing to do, unless a curve is missing or doubled there".into(),
@@ -221,6 +236,24 @@ impl Defect {
             }
             Defect::Coordinate { .. } => "repair the curve in the drawing".into(),
             Defect::NoArea { .. } => "remove the loop from the drawing".into(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_gap_is_told_with_digits_that_close_it() {
+        for gap in [3.0, 0.05, 0.000_41, 9.96e-7, 1.234_5e-9] {
+            let open =
+                Defect::OpenContour { start: Point::default(), end: Point::default(), gap, inside: true };
+            let (text, help) = (open.to_string(), open.help());
+            let last = |text: &str| text.rsplit(' ').next().and_then(|n| n.parse::<f64>().ok());
+            assert!(last(&text).is_some_and(|told| (told - gap).abs() <= 0.005 * gap), "{text}");
+            assert!(last(&help).is_some_and(|reach| reach > gap && reach < 1.02 * gap), "{help}");
+            assert!(text.contains("in a pocket"));
         }
     }
 }

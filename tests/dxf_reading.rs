@@ -636,6 +636,21 @@ fn an_independent_reader_finds_the_same_places() {
 }
 
 #[test]
+fn a_drawing_in_a_unit_without_parts_is_refused_unless_its_true_unit_is_told() {
+    let circle = "0 SECTION; 2 ENTITIES; 0 CIRCLE; 10 1; 20 2; 40 3; 0 ENDSEC; 0 EOF";
+    for (code, name) in [(3, "mile"), (20, "parsec")] {
+        let bytes = file(&format!("0 SECTION; 2 HEADER; 9 $INSUNITS; 70 {code}; 0 ENDSEC; {circle}"));
+        match read_bytes(bytes.as_bytes(), "test.dxf", &ReadOptions::default()) {
+            Err(Error::Unit { path, unit }) => assert_eq!((path.as_str(), unit), ("test.dxf", name)),
+            other => panic!("{other:?}"),
+        }
+        let truth = ReadOptions { dxf_units: Some(DrawingUnit::Inch), ..ReadOptions::default() };
+        let found = read_bytes(bytes.as_bytes(), "test.dxf", &truth).expect("its unit is told");
+        assert_eq!((found.units, found.curves.len()), (Units::Inch, 1));
+    }
+}
+
+#[test]
 fn a_file_that_is_no_drawing_is_refused_with_the_cure() {
     assert!(refusal(b"").contains("empty"));
     assert!(refusal(b"\r\n").contains("empty"));
@@ -646,7 +661,6 @@ fn a_file_that_is_no_drawing_is_refused_with_the_cure() {
     assert!(refusal(b"1\n2\n3\n4\n").contains("section"));
     assert!(refusal(b"AutoCAD Binary DXF\r\n\x1a\0\0SECT").contains("section"));
     assert!(refusal(b"PK\x03\x04").contains("archive") && refusal(b"%PDF-1.4").contains("PDF"));
-    assert!(refusal(drawing("0 LINE").replace("70\n4\n", "70\n20\n").as_bytes()).contains("parsec"));
 }
 
 #[test]

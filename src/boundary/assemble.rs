@@ -167,15 +167,7 @@ impl Drawing {
             }
         }
         curves.retain(|c| c.path.closed || !c.path.is_empty());
-        curves = self.without_copies_and_lines(curves);
-        let mut crossings = Crossings::of(&curves, self.grain);
-        for _ in 0..HEALINGS {
-            if !self.heal(&mut curves, &crossings) {
-                break;
-            }
-            curves = self.without_copies_and_lines(curves);
-            crossings = Crossings::of(&curves, self.grain);
-        }
+        let (curves, mut crossings) = self.healed(curves);
         self.defects.append(&mut crossings.defects);
         let (mut crossing, mut simple, mut dividers) = (Vec::new(), Vec::new(), Vec::new());
         for (curve, crosses) in curves.into_iter().zip(crossings.crosses) {
@@ -188,6 +180,20 @@ impl Drawing {
         }
         let is_plain = dividers.is_empty() && !crossings.are_any_along;
         Ok(Arranged { loops: self.loops(simple), is_plain, crossing, dividers, rest })
+    }
+
+    /// Curves without copies and small crossings, and what still crosses.
+    fn healed(&mut self, curves: Vec<Contour>) -> (Vec<Contour>, Crossings) {
+        let mut curves = self.without_copies_and_lines(curves);
+        let mut crossings = Crossings::of(&curves, self.grain);
+        for _ in 0..HEALINGS {
+            if !self.heal(&mut curves, &crossings) {
+                break;
+            }
+            curves = self.without_copies_and_lines(curves);
+            crossings = Crossings::of(&curves, self.grain);
+        }
+        (curves, crossings)
     }
 
     /// Once contours share their vertices, copies of contours drawn with others are equal too.

@@ -65,6 +65,15 @@ pub(super) fn attach(loose: Loose, contours: &[Contour], join: f64, grain: Grain
             cuts.entry(tee.on.0).or_default().push((tee.on.1, tee.place));
         }
     }
+    cut_and_moved(&loose, &cuts, &moved)
+}
+
+/// Open curves cut at places on their elements, and with some of their ends moved.
+fn cut_and_moved(
+    loose: &Loose,
+    cuts: &HashMap<usize, Vec<(usize, Point)>>,
+    moved: &HashMap<End, Point>,
+) -> Loose {
     let mut found = Loose::default();
     for (i, path) in loose.paths.iter().enumerate() {
         let mut pieces = cut(path, cuts.get(&i).map_or(&[], Vec::as_slice));

@@ -11,32 +11,55 @@ use std::str::FromStr;
 /// A unit that a drawing may claim.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-#[allow(missing_docs)]
 pub enum DrawingUnit {
+    /// 25.4 mm.
     Inch,
+    /// 12 in.
     Foot,
+    /// 5280 ft; no part is drawn in it.
     Mile,
+    /// The millimeter.
     #[default]
     Millimeter,
+    /// 10 mm.
     Centimeter,
+    /// 1000 mm.
     Meter,
+    /// 1000 m, the longest unit of a job.
     Kilometer,
+    /// A millionth of an inch.
     Microinch,
+    /// A thousandth of an inch.
     Mil,
+    /// 36 in.
     Yard,
+    /// A ten-millionth of a millimeter.
     Angstrom,
+    /// A millionth of a millimeter.
     Nanometer,
+    /// A thousandth of a millimeter.
     Micron,
+    /// 100 mm.
     Decimeter,
+    /// 10 m.
     Decameter,
+    /// 100 m.
     Hectometer,
+    /// A million kilometers; no part is drawn in it.
     Gigameter,
+    /// Mean distance of the earth from the sun; no part is drawn in it.
     AstronomicalUnit,
+    /// Way of light in a year; no part is drawn in it.
     LightYear,
+    /// 3.26 light years; no part is drawn in it.
     Parsec,
+    /// 1200/3937 m, the foot of old land surveys in the United States.
     SurveyFoot,
+    /// A twelfth of the survey foot.
     SurveyInch,
+    /// Three survey feet.
     SurveyYard,
+    /// 5280 survey feet; no part is drawn in it.
     SurveyMile,
 }
 

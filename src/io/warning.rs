@@ -308,9 +308,10 @@ impl fmt::Display for Warning {
             Warning::ImplausibleSize { width, height, job, unit, large, .. } => {
                 let job = DrawingUnit::from(*job);
                 let size = if *large { "large" } else { "small" };
+                let [width, height] = [width, height].map(|w| short(*w));
                 write!(
                     f,
-                    "the part is {width:.6} by {height:.6} {job}, which is very {size}; the drawing is read in {unit}"
+                    "the part is {width} by {height} {job}, which is very {size}; the drawing is read in {unit}"
                 )
             }
             Warning::OriginMoved { to } => write!(f, "the origin is moved to {to} of the drawing"),
@@ -386,6 +387,12 @@ impl Serialize for Warning {
         fields.serialize_field("help", &self.help())?;
         fields.end()
     }
+}
+
+/// A length with six decimals, less zeros at the end.
+fn short(length: f64) -> String {
+    let text = format!("{length:.6}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 #[cfg(test)]

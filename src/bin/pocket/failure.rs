@@ -52,6 +52,7 @@ fn help(error: &Error) -> Option<String> {
         Error::File { action: "read", .. } => "check the name of the drawing and whether it may be read",
         Error::File { .. } => "check that the folder exists and may be written to; nothing was written",
         Error::NotADrawing { .. } => "save the drawing as DXF in the drawing program",
+        Error::Unit { .. } => "tell its true unit: --dxf-units mm",
         Error::NothingToMachine { .. } => {
             "take a smaller tool: --tool, --stock; pocket inspect tells the largest that fits"
         }

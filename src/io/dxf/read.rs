@@ -22,8 +22,8 @@ const PLAUSIBLE_MM: std::ops::RangeInclusive<f64> = 0.5..=30_000.0;
 ///
 /// # Errors
 ///
-/// [`Error::File`] if the file cannot be read, [`Error::NotADrawing`] if it is no DXF or is in
-/// a unit that no part is drawn in, [`Error::Effort`] if it or its blocks hold too much,
+/// [`Error::File`] if the file cannot be read, [`Error::NotADrawing`] if it is no DXF,
+/// [`Error::Unit`] if no part is drawn in its unit, [`Error::Effort`] if it or its blocks hold too much,
 /// [`Error::Parameter`] if [`ReadOptions::scale`] is no factor.
 pub fn read(path: &Path, options: &ReadOptions) -> Result<Drawing, Error> {
     let name = path.display().to_string();
@@ -109,10 +109,7 @@ fn scale(header: Header, name: &str, options: &ReadOptions) -> Result<(Unit, Uni
     let job = options.units.or(unit.unit.job()).unwrap_or_default();
     match Scale::new(unit.unit, job) {
         Some(scale) => Ok((unit, job, scale.times(options.scale))),
-        None => {
-            let reason = format!("its unit is {}; tell its true unit with --dxf-units", unit.unit);
-            Err(Error::NotADrawing { path: name.to_owned(), reason })
-        }
+        None => Err(Error::Unit { path: name.to_owned(), unit: unit.unit.name() }),
     }
 }
 

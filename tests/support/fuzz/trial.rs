@@ -42,7 +42,7 @@ pub fn run(bytes: &[u8], seed: u64) -> Result<Figures, String> {
     };
     let mut figures = Figures::default();
     let drawing = match read_bytes(bytes, "trial", &options) {
-        Err(Error::NotADrawing { .. } | Error::Effort { .. }) => return Ok(figures),
+        Err(Error::NotADrawing { .. } | Error::Unit { .. } | Error::Effort { .. }) => return Ok(figures),
         other => other.map_err(|e| format!("read: {e}"))?,
     };
     figures.curves = drawing.curves.len();
