@@ -221,8 +221,10 @@ impl Element {
     /// Smallest axis-parallel box around the element, wider than exact by round-off at most.
     pub fn bounds(&self) -> Bounds {
         let mut bounds = Bounds::around([self.start, self.end]);
-        if self.bulge != 0.0 {
-            let (n0, _) = self.normals();
+        let (n0, n1) = self.normals();
+        // Less than half a turn between directions of one quadrant: no extreme place between the ends.
+        let rises = self.bulge.abs() < 1.0 && n0.x * n1.x > 0.0 && n0.y * n1.y > 0.0;
+        if self.bulge != 0.0 && !rises {
             let sweep = self.sweep();
             let (center, radius) = self.center().expect("an arc has a center");
             for quarter in 0..4 {

@@ -73,6 +73,13 @@ struct Branch {
 impl<'a> Face<'a> {
     /// Makes all edges of a face, adding branch disks and cutting pieces in `graph`.
     pub fn solve(sites: &'a [Site], slots: &'a [Slot], graph: &mut Graph) {
+        // Most faces are one edge or none.
+        if let [a, b] = slots {
+            graph.add_edge([a.piece, b.piece], [b.disk, a.disk]);
+        }
+        if slots.len() <= 2 {
+            return;
+        }
         let boxes = (slots.len() > SCANNED).then(|| {
             Bvh::build(slots.iter().map(|s| piece_bounds(sites, &graph.pieces[s.piece as usize].piece)))
         });
@@ -324,6 +331,10 @@ fn spread(feet: [Foot; 3]) -> f64 {
 /// Steps of the search for a place of equal reach: twice the bits of a parameter.
 const STEPS: usize = 106;
 
+/// Round-off of the ratio of two radii of four roundings each. A search that goes on below it takes all its
+/// steps where pieces are in a tie.
+const RATIO_ERROR: f64 = 4.0 * f64::EPSILON;
+
 /// Parameter beyond `from` where the disks to both pieces are equal: at `from` the one to `before` is
 /// smaller, at the end the one to `after`. Regula falsi (Illinois) with bisection.
 fn equal_reach(sites: &[Site], track: &Track<'_>, after: &Piece, before: &Piece, from: f64) -> f64 {
@@ -331,6 +342,7 @@ fn equal_reach(sites: &[Site], track: &Track<'_>, after: &Piece, before: &Piece,
         let probe = track.at(t);
         let (a, b) = (track.reach(sites, after, &probe).0, track.reach(sites, before, &probe).0);
         match (a.is_finite(), b.is_finite()) {
+            (true, true) if (a - b).abs() <= RATIO_ERROR * (a + b) => 0.0,
             (true, true) => (a - b) / (a + b),
             (true, false) => -1.0,
             (false, _) => 1.0,
