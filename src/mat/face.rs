@@ -331,10 +331,6 @@ fn spread(feet: [Foot; 3]) -> f64 {
 /// Steps of the search for a place of equal reach: twice the bits of a parameter.
 const STEPS: usize = 106;
 
-/// Round-off of the ratio of two radii of four roundings each. A search that goes on below it takes all its
-/// steps where pieces are in a tie.
-const RATIO_ERROR: f64 = 4.0 * f64::EPSILON;
-
 /// Parameter beyond `from` where the disks to both pieces are equal: at `from` the one to `before` is
 /// smaller, at the end the one to `after`. Regula falsi (Illinois) with bisection.
 fn equal_reach(sites: &[Site], track: &Track<'_>, after: &Piece, before: &Piece, from: f64) -> f64 {
@@ -342,7 +338,6 @@ fn equal_reach(sites: &[Site], track: &Track<'_>, after: &Piece, before: &Piece,
         let probe = track.at(t);
         let (a, b) = (track.reach(sites, after, &probe).0, track.reach(sites, before, &probe).0);
         match (a.is_finite(), b.is_finite()) {
-            (true, true) if (a - b).abs() <= RATIO_ERROR * (a + b) => 0.0,
             (true, true) => (a - b) / (a + b),
             (true, false) => -1.0,
             (false, _) => 1.0,
