@@ -44,9 +44,11 @@ const STACK: usize = 80;
 impl Bvh {
     /// The hierarchy over some boxes, its leaves along a Hilbert curve.
     pub fn sorted(boxes: &[Bounds]) -> Bvh {
-        let mut order: Vec<(u32, u32)> = boxes.iter().map(|b| hilbert(b.center())).zip(0..).collect();
+        // Place and number in one word, which sorts twice as fast as the pair.
+        let key = |(i, b): (u64, &Bounds)| u64::from(hilbert(b.center())) << 32 | i;
+        let mut order: Vec<u64> = (0..).zip(boxes).map(key).collect();
         order.par_sort_unstable();
-        let order: Vec<u32> = order.into_iter().map(|(_, i)| i).collect();
+        let order: Vec<u32> = order.into_iter().map(|key| key as u32).collect();
         let tree = Bvh::build(order.iter().map(|&i| boxes[i as usize]));
         Bvh { order, ..tree }
     }
@@ -137,24 +139,44 @@ impl Bvh {
     }
 }
 
-/// Place of a point of the unit frame along a Hilbert curve of 2^16 steps a side.
+/// Steps of the Hilbert curve along a side of the unit frame.
+const SIDE: u32 = 1 << 16;
+
+/// Place of a point of the unit frame along a Hilbert curve.
 fn hilbert(p: Point) -> u32 {
-    const SIDE: u32 = 1 << 16;
     let cell = |c: f64| (((c + 1.0) * 0.5 * f64::from(SIDE)) as u32).min(SIDE - 1);
-    let (mut x, mut y, mut along) = (cell(p.x), cell(p.y), 0u32);
-    let mut step = SIDE / 2;
-    while step > 0 {
-        let (right, up) = (u32::from(x & step > 0), u32::from(y & step > 0));
-        along = along.wrapping_add(step.wrapping_mul(step).wrapping_mul((3 * right) ^ up));
-        if up == 0 {
-            if right == 1 {
-                (x, y) = (SIDE - 1 - x, SIDE - 1 - y);
-            }
-            (x, y) = (y, x);
-        }
-        step /= 2;
+    hilbert_place(cell(p.x), cell(p.y))
+}
+
+/// Place of a cell along the curve. At every bit the curve turns by one of four symmetries, and these are
+/// composed for all bits at once, by distances 1, 2, 4 and 8 between bits, as a parallel prefix sum.
+fn hilbert_place(x: u32, y: u32) -> u32 {
+    const ALL: u32 = SIDE - 1;
+    let (a, b, c, d) = (x ^ y, ALL ^ x ^ y, ALL ^ (x | y), x & (y ^ ALL));
+    // The symmetry so far (`swap`, `turn`) and what it makes of the bits (`even`, `odd`).
+    let mut swap = a | (b >> 1);
+    let mut turn = (a >> 1) ^ a;
+    let mut even = ((c >> 1) ^ (b & (d >> 1))) ^ c;
+    let mut odd = ((a & (c >> 1)) ^ (d >> 1)) ^ d;
+    for step in [2, 4, 8] {
+        let (a, b, c, d) = (swap, turn, even, odd);
+        swap = (a & (a >> step)) ^ (b & (b >> step));
+        turn = (a & (b >> step)) ^ (b & ((a ^ b) >> step));
+        even ^= (a & (c >> step)) ^ (b & (d >> step));
+        odd ^= (b & (c >> step)) ^ ((a ^ b) & (d >> step));
     }
-    along
+    let (a, b) = (even ^ (even >> 1), odd ^ (odd >> 1));
+    let low = x ^ y;
+    let high = b | (ALL ^ (low | a));
+    spread(high) << 1 | spread(low)
+}
+
+/// The sixteen low bits at the even places.
+fn spread(x: u32) -> u32 {
+    let x = (x | x << 8) & 0x00FF_00FF;
+    let x = (x | x << 4) & 0x0F0F_0F0F;
+    let x = (x | x << 2) & 0x3333_3333;
+    (x | x << 1) & 0x5555_5555
 }
 
 /// A search disk in `f32`, its radius rounded up by the round-off of center and boxes.
@@ -217,6 +239,17 @@ impl Boxes {
 mod tests {
     use super::*;
     use crate::geom::point;
+
+    #[test]
+    fn the_hilbert_curve_goes_from_cell_to_neighboring_cell() {
+        let mut cells: Vec<(u32, u32, u32)> =
+            (0..64 * 64).map(|i| (hilbert_place(i / 64, i % 64), i / 64, i % 64)).collect();
+        cells.sort_unstable();
+        for (i, w) in (0..).zip(cells.windows(2)) {
+            assert_eq!(w[0].0, i);
+            assert_eq!(w[0].1.abs_diff(w[1].1) + w[0].2.abs_diff(w[1].2), 1, "{w:?}");
+        }
+    }
 
     #[test]
     fn a_search_meets_exactly_the_boxes_in_reach() {

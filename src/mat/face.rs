@@ -73,6 +73,13 @@ struct Branch {
 impl<'a> Face<'a> {
     /// Makes all edges of a face, adding branch disks and cutting pieces in `graph`.
     pub fn solve(sites: &'a [Site], slots: &'a [Slot], graph: &mut Graph) {
+        // Most faces are one edge or none.
+        if let [a, b] = slots {
+            graph.add_edge([a.piece, b.piece], [b.disk, a.disk]);
+        }
+        if slots.len() <= 2 {
+            return;
+        }
         let boxes = (slots.len() > SCANNED).then(|| {
             Bvh::build(slots.iter().map(|s| piece_bounds(sites, &graph.pieces[s.piece as usize].piece)))
         });

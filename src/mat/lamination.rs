@@ -203,13 +203,13 @@ type Rows = (Vec<Visit>, Vec<std::ops::Range<u32>>);
 fn walk(all: &Sites, order: &Order, contacts: &[ContactItem]) -> Option<Rows> {
     let n = all.sites.len() as u32;
     let links: Vec<u32> = all.rings.iter().filter_map(|r| r.link).collect();
-    let mut mate = std::collections::HashMap::with_capacity(2 * links.len());
+    let mut mate = vec![NONE; order.items.len()];
     // Contacts stand in the order of their joints.
     for &joint in &links {
         let at = contacts.partition_point(|c| c.joint < joint);
         contacts.get(at).filter(|c| c.joint == joint)?;
-        mate.insert(joint, n + at as u32);
-        mate.insert(n + at as u32, joint);
+        mate[joint as usize] = n + at as u32;
+        mate[n as usize + at] = joint;
     }
     let total = order.items.len() + 2 * links.len();
     let mut visits = Vec::with_capacity(total);
@@ -221,7 +221,8 @@ fn walk(all: &Sites, order: &Order, contacts: &[ContactItem]) -> Option<Rows> {
         loop {
             let mut item = order.items[at as usize];
             visits.push(visit(item, false));
-            if let Some(&over) = mate.get(&item) {
+            let over = mate[item as usize];
+            if over != NONE {
                 let (here, there) = (visits.len() as u32 - 1, visits.len() as u32);
                 visits.push(visit(over, true));
                 visits[here as usize].partner = there;

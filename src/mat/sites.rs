@@ -53,12 +53,14 @@ impl Sites {
             noise: frame.noise,
             blur: 0.0,
         };
+        // Sweeps of a bulge up to this are not divided.
+        let whole = (0.25 * FRAC_PI_2 * (1.0 + QUARTER_SLACK)).tan();
         for row in splice(pocket.loops(), frame) {
-            let area: f64 = row.iter().map(|d| d.element.area(row[0].element.start)).sum();
-            let mut parts: Vec<Part> = row.iter().flat_map(quarter_parts).collect();
+            let hole = is_hole(&row, pocket);
+            let mut parts: Vec<Part> = Vec::with_capacity(row.len() + row.len() / 4);
+            row.iter().for_each(|drawn| add_parts(drawn, whole, &mut parts));
             lend_directions(&mut parts, frame.noise);
             all.blur = all.blur.max(share_normals(&mut parts, frame.noise));
-            let hole = area < 0.0;
             if hole {
                 split_at_extreme(&mut parts, direction);
             }
@@ -209,35 +211,41 @@ struct Part {
     last: bool,
 }
 
-/// The element in parts that sweep a quarter at most; parts share places and normals.
-fn quarter_parts(drawn: &Drawn) -> Vec<Part> {
+/// Whether a row of elements runs around a hole. The loops of a pocket tell it themselves, the outer one
+/// first; it is measured where loops that touch were taken apart.
+fn is_hole(row: &[Drawn], pocket: &Pocket) -> bool {
+    let index = row[0].loop_index;
+    let drawn = if index == 0 { pocket.outer() } else { &pocket.islands()[index as usize - 1] };
+    if drawn.len() == row.len() && row.iter().all(|d| d.loop_index == index) {
+        return index > 0;
+    }
+    row.iter().map(|d| d.element.area(row[0].element.start)).sum::<f64>() < 0.0
+}
+
+/// Adds the element in parts that sweep a quarter at most; parts share places and normals. An element whose
+/// bulge is at most `whole` is one part.
+fn add_parts(drawn: &Drawn, whole: f64, parts: &mut Vec<Part>) {
     let e = &drawn.element;
     let kind = if e.is_segment() { SiteKind::Segment } else { SiteKind::Arc };
     let source = SiteRef { loop_index: drawn.loop_index, element: drawn.index, kind };
-    let count = (e.sweep().abs() / FRAC_PI_2 - QUARTER_SLACK).ceil().max(1.0) as usize;
     let (n0, n1) = e.normals();
-    let foot = |i: usize| {
+    let (curvature, chord) = (e.curvature(), e.chord().length());
+    let start = Foot { point: e.start, normal: n0 };
+    let end = Foot { point: e.end, normal: n1 };
+    let mut part = Part { start, end, curvature, source, chord, unseen: 0.0, last: true };
+    let count = if e.bulge.abs() <= whole {
+        1
+    } else {
+        (e.sweep().abs() / FRAC_PI_2 - QUARTER_SLACK).ceil().max(1.0) as usize
+    };
+    for i in 1..count {
         let t = i as f64 / count as f64;
-        let normal = if i == 0 {
-            n0
-        } else if i == count {
-            n1
-        } else {
-            e.normal_at(t)
-        };
         let point = if 2 * i == count { e.midpoint() } else { e.point_at(t) };
-        Foot { point, normal }
-    };
-    let part = |i: usize| Part {
-        start: foot(i),
-        end: foot(i + 1),
-        curvature: e.curvature(),
-        source,
-        chord: e.chord().length(),
-        unseen: 0.0,
-        last: i + 1 == count,
-    };
-    (0..count).map(part).collect()
+        let foot = Foot { point, normal: e.normal_at(t) };
+        parts.push(Part { end: foot, last: false, ..part });
+        part.start = foot;
+    }
+    parts.push(part);
 }
 
 /// Splits the arc that holds the extreme place of the hole in its inside, if one does.
@@ -271,6 +279,9 @@ fn split_at_extreme(parts: &mut Vec<Part>, direction: Vector) {
 fn lend_directions(parts: &mut [Part], noise: f64) {
     let n = parts.len();
     let sliver = sliver(noise);
+    if parts.iter().all(|p| p.chord >= sliver) {
+        return;
+    }
     let beside = |i: usize, forward: bool| if forward { (i + 1) % n } else { (i + n - 1) % n };
     let tilt = |parts: &[Part], from: usize, forward: bool| {
         let to = beside(from, forward);
