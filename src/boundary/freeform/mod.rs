@@ -29,6 +29,7 @@
 mod bernstein;
 mod biarc;
 mod bound;
+mod chords;
 mod crest;
 mod cuts;
 mod density;

@@ -146,7 +146,7 @@ impl Cell {
     }
 
     /// Its arcs that are any, with the parameters between which they stand for the curve.
-    pub fn spans(&self) -> impl Iterator<Item = (Arc, f64, f64)> {
+    pub fn spans(&self) -> impl Iterator<Item = (Arc, f64, f64)> + use<> {
         let [a, b] = self.arcs;
         let both = [(a, self.from, self.joint), (b, self.joint, self.to)];
         both.into_iter().filter(|(arc, _, _)| arc.start != arc.end)
