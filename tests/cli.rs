@@ -460,3 +460,27 @@ fn clearing_from_outside_retracts_no_more_often() {
         assert_eq!(retracts(name, "outside"), retracts(name, "inside"), "{name}");
     }
 }
+
+#[test]
+fn chords_become_arcs_where_that_is_asked_for() {
+    let count = 1000;
+    let vertices: String = (0..count)
+        .map(|i| {
+            let (sin, cos) = (std::f64::consts::TAU * f64::from(i) / f64::from(count)).sin_cos();
+            format!("10\n{}\n20\n{}\n", 20.0 * cos, 20.0 * sin)
+        })
+        .collect();
+    let round = format!("0\nLWPOLYLINE\n8\n0\n90\n{count}\n70\n1\n{vertices}");
+    let desk = Desk::new(&drawing(&[round, rectangle(-5.0, -5.0, 5.0, 5.0)]));
+    let arcs = |options: &[&str]| {
+        let arguments = [&["part.dxf", "--tool", "6", "--report", "json"], options].concat();
+        let output = desk.pocket(&arguments).assert().success().get_output().stdout.clone();
+        let report: serde_json::Value = serde_json::from_slice(&output).unwrap();
+        (report["pockets"][0]["arcs"].as_u64().unwrap(), report["pockets"][0]["area"].as_f64().unwrap())
+    };
+    let (drawn, fitted) = (arcs(&[]), arcs(&["--fit", "0.01"]));
+    assert_eq!(drawn.0, 1004);
+    // The rectangle keeps its four sides.
+    assert!(fitted.0 <= 12 + 4, "{fitted:?}");
+    assert!((fitted.1 - drawn.1).abs() < 0.1 && fitted.1 > drawn.1);
+}

@@ -253,7 +253,7 @@ fn a_higher_degree_makes_the_same_boundary() {
     for tolerance in [1e-2, 1e-4] {
         let (a, b) = (low.to_arcs(tolerance).unwrap(), high.to_arcs(tolerance).unwrap());
         assert_eq!((a.path.len(), a.cuts), (b.path.len(), b.cuts));
-        assert!(apart(&a.path, &b.path) < SAME * tolerance);
+        assert!(apart(&a.path, &b.path) < SAME * tolerance, "{:e}", apart(&a.path, &b.path));
     }
 }
 
@@ -284,7 +284,8 @@ fn similar_curves_have_similar_boundaries() {
         let mapped = spline.transformed(map).to_arcs(1e-3 * scale).unwrap();
         let expected = plain.path.mapped(mirror < 0.0, map);
         assert_eq!(mapped.path.len(), expected.len());
-        assert!(apart(&mapped.path, &expected) < SAME * 1e-3 * scale);
+        let far = apart(&mapped.path, &expected);
+        assert!(far < SAME * 1e-3 * scale, "{far:e}");
     }
 }
 

@@ -31,6 +31,13 @@ pub struct Reading {
     #[arg(long, value_name = "LENGTH", value_parser = above_0, help_heading = "Drawing")]
     pub tolerance: Option<Length>,
 
+    /// Turn runs of chords of polylines into arcs within this distance [default: off]
+    ///
+    /// For drawings of programs that write curves as hundreds of tiny chords. Every chord replaced is
+    /// within the distance of its arcs, by a proof; corners stay corners.
+    #[arg(long, value_name = "LENGTH", value_parser = above_0, help_heading = "Drawing")]
+    pub fit: Option<Length>,
+
     /// Largest gap closed between ends [default: 0.01 mm, 0.0004 in]
     #[arg(long, value_name = "LENGTH", value_parser = at_least_0, help_heading = "Drawing")]
     pub join: Option<Length>,
@@ -111,6 +118,7 @@ impl Reading {
                 OriginArg::Center => Origin::Center,
             },
             fit: FitTolerance { mm: self.tolerance(Units::Mm).fit, inch: self.tolerance(Units::Inch).fit },
+            chords: self.fit.map(|l| FitTolerance { mm: l.to(Units::Mm), inch: l.to(Units::Inch) }),
         })
     }
 

@@ -2,7 +2,8 @@
 //!
 //! **Method.** Let the tangents turn by `alpha` and `beta` from the chord. All joints lie on a circle
 //! through the nodes, where the chords of both arcs meet at the angle `sigma = (beta - alpha) / 2`.
-//! The joint in the middle of that circle makes both chords equally long. S0's joint makes the first
+//! The joint in the middle of that circle makes both chords equally long, others divide `sigma` as the
+//! chords are to be. S0's joint makes the first
 //! arc osculate the curve where it is more curved, which keeps the curvature monotone for every
 //! spiral (Meek and Walton, *Approximating smooth planar curves by arc splines*, 1995; Aichholzer et
 //! al., *Medial axis computation for planar free-form shapes*, 2009, Algorithm 1). No center appears,
@@ -36,13 +37,13 @@ pub(super) struct Arc {
 
 impl Arc {
     /// The arc that leaves `start` with unit tangent `tangent`.
-    fn leaving(start: Vector, tangent: Vector, end: Vector) -> Arc {
+    pub fn leaving(start: Vector, tangent: Vector, end: Vector) -> Arc {
         let u = (end - start).unit();
         Arc { start, end, bulge: tangent.cross(u) / (1.0 + tangent.dot(u)) }
     }
 
     /// The arc that arrives at `end` with unit tangent `tangent`.
-    fn arriving(start: Vector, end: Vector, tangent: Vector) -> Arc {
+    pub fn arriving(start: Vector, end: Vector, tangent: Vector) -> Arc {
         let u = (end - start).unit();
         Arc { start, end, bulge: u.cross(tangent) / (1.0 + u.dot(tangent)) }
     }
@@ -76,11 +77,16 @@ impl Arc {
     }
 }
 
+impl Joint {
+    /// In the middle: chords equally long.
+    pub const MIDDLE: Joint = Joint::Shifted(0.0);
+}
+
 /// Which biarc of the family.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Joint {
-    /// Chords equally long.
-    Middle,
+    /// Chords about as long as `1 + shift` to `1 - shift`; without one, they are equally long.
+    Shifted(f64),
     /// The arc at the more curved end is its osculating circle.
     Osculating,
 }
@@ -111,12 +117,8 @@ pub(super) fn biarc(a: &Node, b: &Node, joint: Joint, grid: Grid) -> Option<[Arc
     }
     // Tangents of the half angles.
     let (alpha, beta) = (u.cross(a.tangent) / (1.0 + ahead), u.cross(b.tangent) / (1.0 + behind));
-    let middle = || {
-        let tan = (alpha - beta) / (1.0 + alpha * beta);
-        chord * 0.5 + chord.left() * (0.5 * tan / (1.0 + (1.0 + tan * tan).sqrt()))
-    };
     let to_joint = match joint {
-        Joint::Middle => middle(),
+        Joint::Shifted(shift) => shifted([alpha, beta], chord, shift),
         Joint::Osculating => osculating([alpha, beta], chord, [a.curvature, b.curvature])?,
     };
     let place = grid.snap(a.place + to_joint);
@@ -125,6 +127,16 @@ pub(super) fn biarc(a: &Node, b: &Node, joint: Joint, grid: Grid) -> Option<[Arc
     }
     let arcs = [Arc::leaving(a.place, a.tangent, place), Arc::arriving(place, b.place, b.tangent)];
     arcs.iter().all(|arc| arc.bulge.is_finite()).then_some(arcs)
+}
+
+/// From the first node to the joint whose angles from there and from the second node are
+/// `1 - shift` to `1 + shift`, by their tangents.
+fn shifted([alpha, beta]: [f64; 2], chord: Vector, shift: f64) -> Vector {
+    let tan = (alpha - beta) / (1.0 + alpha * beta);
+    let half = tan / (1.0 + (1.0 + tan * tan).sqrt());
+    let (up, down) = (1.0 + half * half * shift, 1.0 - half * half * shift);
+    let along = (1.0 + shift) * up / ((1.0 + shift) * up + (1.0 - shift) * down);
+    (chord + chord.left() * (half * (1.0 - shift) / up)) * along
 }
 
 /// From the first node to the joint of the biarc with one osculating arc.
@@ -168,7 +180,7 @@ mod tests {
     fn both_arcs_have_one_tangent_at_the_joint() {
         for (alpha, beta) in [(-0.3, 0.4), (0.2, 0.2), (0.1, -0.5), (-0.4, -0.4), (0.0, 0.0)] {
             let (a, b) = (node(1.0, 1.0, alpha, 0.0), node(3.0, 1.0, beta, 0.0));
-            let [first, second] = biarc(&a, &b, Joint::Middle, GRID).unwrap();
+            let [first, second] = biarc(&a, &b, Joint::MIDDLE, GRID).unwrap();
             let start = Arc { start: second.end, end: second.start, bulge: -second.bulge }.end_tangent();
             assert!((first.end_tangent() + start).length() < 1e-15);
             assert!((second.end_tangent() - b.tangent).length() < 1e-15);
@@ -202,7 +214,7 @@ mod tests {
 
     #[test]
     fn a_turn_of_a_right_angle_from_the_chord_is_too_much() {
-        assert!(biarc(&node(0.0, 0.0, -1.6, 0.0), &node(1.0, 0.0, 0.0, 0.0), Joint::Middle, GRID).is_none());
-        assert!(biarc(&node(0.0, 0.0, -1.0, 0.0), &node(1.0, 0.0, 1.0, 0.0), Joint::Middle, GRID).is_none());
+        assert!(biarc(&node(0.0, 0.0, -1.6, 0.0), &node(1.0, 0.0, 0.0, 0.0), Joint::MIDDLE, GRID).is_none());
+        assert!(biarc(&node(0.0, 0.0, -1.0, 0.0), &node(1.0, 0.0, 1.0, 0.0), Joint::MIDDLE, GRID).is_none());
     }
 }

@@ -48,11 +48,6 @@ impl Distance {
     /// What is known of parts that could not be matched: nothing.
     pub const UNKNOWN: Distance = Distance { bound: f64::INFINITY, found: f64::INFINITY };
 
-    /// The largest distance as it does not depend on how a bound was found; never below the bound.
-    pub fn steady(self) -> f64 {
-        self.bound.max(TIGHT * self.found)
-    }
-
     /// Of both together.
     pub fn max(self, other: Distance) -> Distance {
         Distance { bound: self.bound.max(other.bound), found: self.found.max(other.found) }
@@ -95,20 +90,37 @@ impl Frame {
         if root >= 0.0 { 2.0 * power / (1.0 + root.sqrt()) } else { f64::INFINITY }
     }
 
-    /// Distance between the arc and a part of a piece, whose ends are on its normals or inside.
-    pub fn measure(&self, mut local: Piece) -> Distance {
+    /// The power of places at a distance.
+    fn power(&self, distance: f64) -> f64 {
+        (distance - self.half_curvature.abs() * distance * distance).max(0.0)
+    }
+
+    /// Distance between the arc and a part of a piece, whose ends are on its normals or inside. A bound
+    /// below `limit` need not be tight.
+    pub fn measure(&self, mut local: Piece, limit: f64) -> Distance {
         local.map(|p| self.enter(p));
         let back = self.turning_back(&local, MAX_HALVINGS);
         if back.is_infinite() {
             return Distance::UNKNOWN;
         }
+        let limit = self.power(limit - back);
         // Cubics are by far the most; their forms are short.
         let range = match local.degree() {
-            ..=3 => Power::<7>::along(&local, self).range(),
-            _ => Power::<LEN>::along(&local, self).range(),
+            ..=3 => Power::<7>::along(&local, self).range(limit),
+            _ => Power::<LEN>::along(&local, self).range(limit),
         };
         let found = self.distance(range.found.min(range.bound));
         Distance { bound: self.distance(range.bound) + back, found }
+    }
+
+    /// How far a part of a piece is to the left and to the right of the arc.
+    pub fn sides(&self, mut local: Piece) -> [f64; 2] {
+        local.map(|p| self.enter(p));
+        let [left, right] = match local.degree() {
+            ..=3 => Power::<7>::along(&local, self).sides(),
+            _ => Power::<LEN>::along(&local, self).sides(),
+        };
+        [self.distance(left), self.distance(right)]
     }
 
     /// The largest distance of some samples of a part from the arc: an estimate, not a bound (S0,
@@ -158,6 +170,17 @@ impl Frame {
     }
 }
 
+/// Sides of an arc that a range is about.
+const BOTH: i8 = 0;
+const LEFT: i8 = 1;
+const RIGHT: i8 = -1;
+
+/// How far a power is on a side.
+#[inline]
+fn on<const SIDE: i8>(power: f64) -> f64 {
+    if SIDE == BOTH { power.abs() } else { f64::from(SIDE) * power }
+}
+
 /// The power along a piece as numerator and denominator in Bernstein form, with room for `N`
 /// coefficients.
 #[derive(Clone, Copy)]
@@ -192,58 +215,59 @@ impl<const N: usize> Power<N> {
         power
     }
 
-    /// Largest absolute value at the ends.
-    fn ends(&self) -> f64 {
-        let n = self.degree;
-        (self.numerator[0] / self.denominator[0]).abs().max((self.numerator[n] / self.denominator[n]).abs())
-    }
-
-    /// Largest absolute ratio of coefficients.
-    fn largest(&self) -> f64 {
+    /// Largest value of ratios of coefficients.
+    fn largest<const SIDE: i8>(&self) -> f64 {
         let pairs = self.numerator[..=self.degree].iter().zip(&self.denominator[..=self.degree]);
         if self.rational {
-            pairs.fold(0.0, |m: f64, (a, b)| m.max(a.abs() / b))
+            pairs.fold(0.0, |m: f64, (a, b)| m.max(on::<SIDE>(*a) / b))
         } else {
-            pairs.fold(0.0, |m: f64, (a, _)| m.max(a.abs()))
+            pairs.fold(0.0, |m: f64, (a, _)| m.max(on::<SIDE>(*a)))
         }
     }
 
     /// Bound and largest value found of the absolute power.
-    fn range(self) -> Distance {
-        let mut range = Distance { bound: 0.0, found: self.ends() };
-        let largest = self.largest();
-        self.bound(largest, MAX_DIVISIONS, &mut range);
+    fn range(self, limit: f64) -> Distance {
+        self.top::<BOTH>(limit)
+    }
+
+    /// Largest power, and largest negative one.
+    fn sides(self) -> [f64; 2] {
+        [self.top::<LEFT>(0.0).bound, self.top::<RIGHT>(0.0).bound]
+    }
+
+    /// Bound and largest value found of the power on a side.
+    fn top<const SIDE: i8>(self, limit: f64) -> Distance {
+        let found = on::<SIDE>(self.ratio(0)).max(on::<SIDE>(self.ratio(self.degree))).max(0.0);
+        let mut range = Distance { bound: 0.0, found };
+        let largest = self.largest::<SIDE>();
+        self.bound::<SIDE>((largest, limit), MAX_DIVISIONS, &mut range);
         range
     }
 
     /// Widens a range by this part, whose largest ratio of coefficients is known.
-    fn bound(mut self, largest: f64, divisions: u32, range: &mut Distance) {
+    fn bound<const SIDE: i8>(mut self, (largest, limit): (f64, f64), divisions: u32, range: &mut Distance) {
         if largest <= range.bound {
             return;
         }
-        if largest <= TIGHT * range.found || divisions == 0 {
+        if largest <= limit || largest <= TIGHT * range.found || divisions == 0 {
             range.bound = largest;
             return;
         }
         let before = self.divide();
-        range.found = range.found.max(before.end());
+        range.found = range.found.max(on::<SIDE>(before.ratio(before.degree)));
         // The larger part first: then the other is often settled at once.
-        let (m, n) = (before.largest(), self.largest());
+        let (m, n) = (before.largest::<SIDE>(), self.largest::<SIDE>());
         if m > n {
-            before.bound(m, divisions - 1, range);
-            self.bound(n, divisions - 1, range);
+            before.bound::<SIDE>((m, limit), divisions - 1, range);
+            self.bound::<SIDE>((n, limit), divisions - 1, range);
         } else {
-            self.bound(n, divisions - 1, range);
-            before.bound(m, divisions - 1, range);
+            self.bound::<SIDE>((n, limit), divisions - 1, range);
+            before.bound::<SIDE>((m, limit), divisions - 1, range);
         }
     }
 
     fn ratio(&self, i: usize) -> f64 {
         self.numerator[i] / self.denominator[i]
-    }
-
-    fn end(&self) -> f64 {
-        self.ratio(self.degree).abs()
     }
 
     /// Keeps the second part and answers the first: of two halves, or of parts that meet about where
@@ -319,7 +343,7 @@ mod tests {
             let part = Piece::new(&points, &weights);
             for bulge in [0.0, 0.1, 0.3, -0.1, 1e-9] {
                 let arc = Arc { start: vector(0.0, 0.0), end: vector(1.0, 0.0), bulge };
-                let distance = Frame::of(&arc).measure(part);
+                let distance = Frame::of(&arc).measure(part, 0.0);
                 let sampled = sampled(&part, &arc);
                 assert!(distance.bound >= sampled - 1e-9, "{bulge}: {distance:?}, sampled {sampled}");
                 assert!(distance.bound <= 1.1 * sampled, "{bulge}: {distance:?}, sampled {sampled}");
@@ -331,7 +355,7 @@ mod tests {
     fn a_part_that_turns_back_has_a_bound_that_says_so() {
         let points = [vector(0.0, 0.0), vector(3.0, 0.1), vector(-2.0, 0.1), vector(1.0, 0.0)];
         let arc = Arc { start: vector(0.0, 0.0), end: vector(1.0, 0.0), bulge: -0.05 };
-        assert!(Frame::of(&arc).measure(Piece::new(&points, &[1.0; 4])).bound > 0.3);
+        assert!(Frame::of(&arc).measure(Piece::new(&points, &[1.0; 4]), 0.0).bound > 0.3);
     }
 
     #[test]
@@ -340,6 +364,6 @@ mod tests {
         let quarter = Piece::new(&[vector(1.0, 0.0), vector(1.0, 1.0), vector(0.0, 1.0)], &[1.0, half, 1.0]);
         let arc =
             Arc { start: vector(1.0, 0.0), end: vector(0.0, 1.0), bulge: (std::f64::consts::PI / 8.0).tan() };
-        assert!(Frame::of(&arc).measure(quarter).bound < 1e-15);
+        assert!(Frame::of(&arc).measure(quarter, 0.0).bound < 1e-15);
     }
 }

@@ -5,7 +5,7 @@ use super::bound::Distance;
 use super::cuts::{CutKind, Stretch, StretchKind, stretches};
 use super::error::CurveError;
 use super::pieces::Pieces;
-use super::run::fit_run;
+use super::run::{Run, fit_run};
 use super::spiral::{Cell, Fitter, MAX_BIARCS, Scheme};
 use super::track::{Side, Track};
 use super::{EllipseArc, Nurbs};
@@ -121,12 +121,27 @@ fn fit(curve: &Pieces, tolerance: f64, scheme: Scheme) -> Result<Fit, CurveError
             continue;
         }
         cells.clear();
+        let ring = curve.closed && run.len() == stretches.len() && run[0].from.kind.is_soft();
+        let run = Run { stretches: run, ring };
         if fit_run(&mut fitter, &track, (goal, scheme), run, &mut cells).is_none() {
             return Err(CurveError::Effort { at: curve.origin + ends[0].place, limit: MAX_BIARCS });
         }
-        path.push_cells(&cells, run[0].from.kind);
+        tighten(&track, &mut cells);
+        path.push_cells(&cells, run.stretches[0].from.kind);
     }
     Ok(path.finished(cuts))
+}
+
+/// Bounds this much above the largest distance found in a run are made tight.
+const LOOSE: f64 = 1.0625;
+
+/// Makes the bounds of a run tight that are above all distances found in it.
+fn tighten(track: &Track, cells: &mut [Cell]) {
+    let found = cells.iter().map(|c| c.distance.found).fold(0.0, f64::max);
+    for cell in cells.iter_mut().filter(|c| !c.sharp && c.distance.bound > LOOSE * found) {
+        let distances = cell.spans().map(|(arc, from, to)| track.measure_arc(&arc, from, to, 0.0));
+        cell.distance = distances.fold(Distance::ZERO, Distance::max);
+    }
 }
 
 impl Cuts {
@@ -173,7 +188,7 @@ impl Path<'_> {
         let arc = Arc { start: a.place, end: b.place, bulge };
         let distance = match stretch.kind {
             StretchKind::Straight => Distance::ZERO,
-            _ => track.measure_arc(&arc, stretch.from.u, stretch.to.u),
+            _ => track.measure_arc(&arc, stretch.from.u, stretch.to.u, 0.0),
         };
         if distance.bound > FIT_ROUNDINGS * self.curve.noise || distance.bound.is_nan() {
             return false;

@@ -29,20 +29,23 @@
 mod bernstein;
 mod biarc;
 mod bound;
+mod chords;
+mod crest;
 mod cuts;
+mod density;
 mod drawn;
 mod ellipse;
 mod error;
 mod features;
 mod fit;
 mod interpolate;
-mod march;
 mod nurbs;
 mod piece;
 mod pieces;
 mod roots;
 mod run;
 mod spiral;
+mod spread;
 mod track;
 
 pub use ellipse::EllipseArc;

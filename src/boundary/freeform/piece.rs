@@ -33,6 +33,17 @@ pub(super) struct Jet {
     pub d3: Vector,
 }
 
+/// Speed, curvature and its derivative by arc length.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bend {
+    /// Length by the parameter.
+    pub speed: f64,
+    /// Signed curvature, left turn positive.
+    pub curvature: f64,
+    /// Derivative of the curvature by arc length.
+    pub slope: f64,
+}
+
 impl Jet {
     /// Signed curvature, left turn positive.
     pub fn curvature(&self) -> f64 {
@@ -42,9 +53,16 @@ impl Jet {
 
     /// Derivative of the curvature by arc length.
     pub fn curvature_slope(&self) -> f64 {
+        self.bend().slope
+    }
+
+    /// How fast the curve runs and bends.
+    #[inline]
+    pub fn bend(&self) -> Bend {
         let speed2 = self.d1.length_squared();
-        let turn = self.d1.cross(self.d3) * speed2 - 3.0 * self.d1.cross(self.d2) * self.d1.dot(self.d2);
-        turn / (speed2 * speed2 * speed2)
+        let (speed, cross) = (speed2.sqrt(), self.d1.cross(self.d2));
+        let turn = self.d1.cross(self.d3) * speed2 - 3.0 * cross * self.d1.dot(self.d2);
+        Bend { speed, curvature: cross / (speed2 * speed), slope: turn / (speed2 * speed2 * speed2) }
     }
 }
 

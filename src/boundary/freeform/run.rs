@@ -4,15 +4,17 @@
 //! have their extrema where the curve has its apices, and no others, as far as round-off of stored
 //! arcs lets curvatures be told apart.
 //!
-//! **Method.** A node at every apex and inflection would cost an arc or two at each. So the whole run
-//! is laid at once first, and an arc may run over an apex: having the mean curvature of its part, it is
-//! the extremum itself. Where the curvatures show another picture than the cuts, the nearest cut gets a
-//! node; where that does not help, its neighborhood gets a more careful scheme.
+//! **Method.** A node at every apex and inflection would cost an arc or two at each. So one arc is laid
+//! over every apex first, and is the extremum itself; biarcs between run over inflections. Having the
+//! mean curvature of their parts, arcs rise and fall as the curve does. Where the curvatures show
+//! another picture than the cuts all the same, the nearest cut gets a node; where that does not help,
+//! its neighborhood gets a more careful scheme.
 
 use super::biarc::{Arc, Node};
+use super::crest::{Crest, Room, crest};
 use super::cuts::{CutKind, Stretch};
-use super::march::{Centered, centered};
 use super::spiral::{Cell, Fitter, Scheme};
+use super::spread::Ends;
 use super::track::{Side, Track};
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -20,55 +22,59 @@ use std::ops::Range;
 /// Rounds of putting nodes and choosing schemes; cuts that are still wrong then stay so.
 const MAX_ROUNDS: usize = 12;
 
-/// With fewer biarcs for each apex than this it is worth a try to lay them around the apices first.
-const FEW: usize = 12;
+/// An arc over an apex reaches over at most this part of the way to the next apices and to the ends.
+const CREST_SHARE: f64 = 0.4375;
+
+/// Arcs over an apex are laid within the half of the tolerance, again and again, so many times at most
+/// until those beside them fit.
+const MAX_HALVINGS: i32 = 4;
 
 /// Schemes for a part of a run, each more careful with curvatures than the one before.
 const CAREFUL: [Scheme; 4] = [Scheme::Tilted, Scheme::Plain, Scheme::Osculating, Scheme::Bisection];
+
+/// Stretches that biarcs may run over.
+#[derive(Clone, Copy)]
+pub(super) struct Run<'a> {
+    /// The stretches in order.
+    pub stretches: &'a [Stretch],
+    /// Whether the first goes on smoothly behind the last.
+    pub ring: bool,
+}
 
 /// Fits a run; the biarcs are appended to `out`. `None` when the limit on effort is reached.
 pub(super) fn fit_run(
     fitter: &mut Fitter,
     track: &Track,
     (tolerance, scheme): (f64, Scheme),
-    stretches: &[Stretch],
+    run: Run,
     out: &mut Vec<Cell>,
 ) -> Option<()> {
     if !matches!(scheme, Scheme::Fewest | Scheme::Tilted) {
-        return stretches
-            .chunks(1)
-            .try_for_each(|s| fitter.fit(track, ends(track, s), (tolerance, scheme), out));
+        return run.stretches.chunks(1).try_for_each(|s| {
+            let ends = Ends { nodes: ends(track, s), crests: [false; 2], singles: [false; 2] };
+            fitter.fit(track, &ends, (tolerance, scheme), out)
+        });
     }
-    let work = &mut Work { fitter, track, tolerance, stretches };
-    let mut cells = laid_by(work, At::None)?;
-    let apices = stretches[1..].iter().filter(|s| s.from.kind == CutKind::Apex).count();
-    if scheme == Scheme::Fewest && cells.len() < FEW * apices {
-        let other = laid_by(work, At::Center)?;
-        if other.len() < cells.len() {
-            cells = other;
-        }
-    }
-    out.append(&mut cells);
-    Some(())
-}
-
-/// Biarcs along a run with something at all apices at first.
-fn laid_by(work: &mut Work, at: At) -> Option<Vec<Cell>> {
-    let apex = |s: &Stretch| if s.from.kind == CutKind::Apex { at } else { At::None };
-    let mut plan =
-        Plan { nodes: work.stretches.iter().map(apex).collect(), care: vec![0; work.stretches.len()] };
+    let work = &mut Work { fitter, track, tolerance, run };
+    let mut plan = Plan::of(run);
     let mut laid = Laid::default();
-    let mut cells = Vec::new();
-    for _ in 0..MAX_ROUNDS {
-        cells.clear();
+    let begin = out.len();
+    for round in 0..MAX_ROUNDS {
+        out.truncate(begin);
+        if round + 1 == MAX_ROUNDS {
+            plan.give_up_crests();
+        }
         laid.lay(work, &plan)?;
-        laid.parts.iter().for_each(|p| cells.extend_from_slice(&laid.cells[p.cells.clone()]));
-        let wrong = wrong_places(&cells, work.stretches, work.track.noise());
-        if !plan.improve(&wrong, work.stretches) {
+        if !laid.lost.is_empty() && plan.improve(&laid.lost, run, track) {
+            continue;
+        }
+        laid.parts.iter().for_each(|p| out.extend_from_slice(&laid.cells[p.cells.clone()]));
+        let wrong = wrong_places(&out[begin..], run, track.noise());
+        if !plan.improve(&wrong, run, track) {
             break;
         }
     }
-    Some(cells)
+    Some(())
 }
 
 fn ends(track: &Track, stretches: &[Stretch]) -> [Node; 2] {
@@ -76,40 +82,99 @@ fn ends(track: &Track, stretches: &[Stretch]) -> [Node; 2] {
     [track.cut_node(from, Side::After), track.cut_node(to, Side::Before)]
 }
 
+impl Run<'_> {
+    /// Parameter at the end.
+    fn end(&self) -> f64 {
+        self.stretches[self.stretches.len() - 1].to.u
+    }
+
+    /// What there is where stretch `i` begins; where the last one ends it is the same as at the first
+    /// in a ring.
+    fn is_apex(&self, i: usize) -> bool {
+        let n = self.stretches.len();
+        let inner = i > 0 && i < n;
+        (inner || self.ring) && self.stretches[i % n].from.kind == CutKind::Apex
+    }
+
+    /// Parameter where stretch `i` begins, counted on around a ring.
+    fn at(&self, i: usize) -> f64 {
+        let n = self.stretches.len();
+        let turns = (i / n) as f64 * (self.end() - self.stretches[0].from.u);
+        if i == n { self.end() } else { self.stretches[i % n].from.u + turns }
+    }
+
+    /// Parameters of the apices before and after the one where stretch `i > 0` begins, or of the ends.
+    fn neighbors(&self, i: usize) -> [f64; 2] {
+        let last = if self.ring { 2 * self.stretches.len() } else { self.stretches.len() };
+        let before = (0..i).rev().find(|&j| self.is_apex(j)).unwrap_or(0);
+        let after = (i + 1..last).find(|&j| self.is_apex(j)).unwrap_or(last);
+        [self.at(before), self.at(after)]
+    }
+}
+
 /// What there is at a cut where biarcs may run over it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum At {
     /// Nothing in particular.
     None,
-    /// A biarc that reaches as far to both sides.
-    Center,
+    /// An arc over an apex, within half the tolerance as often as this says.
+    Crest(i32),
     /// A node.
     Node,
 }
 
 /// Where a run gets nodes, and how careful it is laid.
 struct Plan {
-    /// What there is where a stretch begins.
+    /// What there is where a stretch begins, and at the end of the run.
     nodes: Vec<At>,
     /// Number of the scheme of a stretch.
     care: Vec<usize>,
 }
 
 impl Plan {
+    /// Arcs over all apices.
+    fn of(run: Run) -> Plan {
+        let n = run.stretches.len();
+        let mut nodes: Vec<At> =
+            (0..=n).map(|i| if run.is_apex(i) { At::Crest(0) } else { At::None }).collect();
+        for end in [0, n] {
+            nodes[end] = if nodes[end] == At::None { At::Node } else { nodes[end] };
+        }
+        Plan { nodes, care: vec![0; n] }
+    }
+
+    /// Makes all arcs over apices nodes.
+    fn give_up_crests(&mut self) {
+        for at in &mut self.nodes {
+            *at = if matches!(at, At::Crest(_)) { At::Node } else { *at };
+        }
+    }
+
     /// Takes more care at some places; answers whether it can.
-    fn improve(&mut self, wrong: &[f64], stretches: &[Stretch]) -> bool {
+    fn improve(&mut self, wrong: &[f64], run: Run, track: &Track) -> bool {
         let mut better = false;
-        let n = stretches.len();
+        let n = run.stretches.len();
         let (nodes, care) = (self.nodes.clone(), self.care.clone());
         for &u in wrong {
-            let after = stretches[1..].partition_point(|s| s.from.u < u) + 1;
-            let off =
-                |i: usize| if i == 0 || i >= n { f64::INFINITY } else { (stretches[i].from.u - u).abs() };
-            let nearest = if off(after) < off(after - 1) { after } else { after - 1 };
-            if nearest > 0 && nearest < n && nodes[nearest] != At::Node {
-                let apex = stretches[nearest].from.kind == CutKind::Apex;
-                let first = apex && nodes[nearest] == At::None;
-                self.nodes[nearest] = if first { At::Center } else { At::Node };
+            let after = run.stretches[1..].partition_point(|s| s.from.u < u) + 1;
+            // Distances in the plane, as parameters say nothing about the shape.
+            let place = track.place(u);
+            let far = |i: usize| (track.place(run.at(i)) - place).length_squared();
+            let nearest = if far(after) < far(after - 1) { after } else { after - 1 };
+            // A crest too wide is what bends those beside it the wrong way.
+            let before = (0..after).rev().find(|&i| run.is_apex(i));
+            let behind = (after..=n).find(|&i| run.is_apex(i));
+            let crest = [before, behind].into_iter().flatten().filter(|&i| nodes[i] != At::Node);
+            let first = crest.min_by(|&i, &j| far(i).total_cmp(&far(j)));
+            let first = first.or_else(|| Some(nearest).filter(|&i| nodes[i] != At::Node));
+            if let Some(i) = first {
+                self.nodes[i] = match nodes[i] {
+                    At::Crest(halvings) if halvings < MAX_HALVINGS => At::Crest(halvings + 1),
+                    _ => At::Node,
+                };
+                if i == 0 || i == n {
+                    (self.nodes[0], self.nodes[n]) = (self.nodes[i], self.nodes[i]);
+                }
                 better = true;
                 continue;
             }
@@ -129,27 +194,25 @@ struct Work<'a, 'b> {
     fitter: &'a mut Fitter,
     track: &'a Track<'b>,
     tolerance: f64,
-    stretches: &'a [Stretch],
+    run: Run<'a>,
 }
 
-/// A biarc around an apex reaches over at most this part of the way to the next cuts.
-const CENTER_SHARE: f64 = 0.3125;
-
 impl Work<'_, '_> {
-    /// The biarc around the apex where stretch `i` begins, if there is room for one.
-    fn center(&self, i: usize) -> Option<Centered> {
-        let place = |u: f64| self.track.place(u);
-        let (before, after) = (&self.stretches[i - 1], &self.stretches[i]);
-        let way = |u: f64| (place(u) - place(after.from.u)).length();
-        let most = CENTER_SHARE * way(before.from.u).min(way(after.to.u));
-        centered(self.track, after.from.u, [before.from.u, after.to.u], most, self.tolerance)
+    /// The arc over the apex where stretch `i > 0` begins, if there is room for one.
+    fn crest(&self, i: usize, halvings: i32) -> Option<Crest> {
+        let u = self.run.at(i);
+        let limits = self.run.neighbors(i);
+        let place = self.track.place(u);
+        let way = limits.map(|limit| (self.track.place(limit) - place).length());
+        let room = Room { limits, most: CREST_SHARE * way[0].min(way[1]) };
+        crest(self.track, u, &room, self.tolerance * 0.5f64.powi(halvings))
     }
 }
 
-/// A part of a run between nodes, or a biarc around an apex.
+/// A part of a run between nodes, or an arc over an apex.
 #[derive(Clone)]
 struct Part {
-    /// Its stretches; none for a biarc around an apex.
+    /// Its stretches; none for an arc over an apex.
     stretches: Range<usize>,
     care: usize,
     /// What there is at both ends.
@@ -163,32 +226,31 @@ struct Part {
 struct Laid {
     cells: Vec<Cell>,
     parts: Vec<Part>,
-    /// Biarcs around apices.
-    centers: BTreeMap<usize, Option<Centered>>,
+    /// Arcs over apices.
+    crests: BTreeMap<(usize, i32), Option<Crest>>,
+    /// Where arcs over apices leave no way for biarcs beside them.
+    lost: Vec<f64>,
 }
 
 impl Laid {
     fn lay(&mut self, work: &mut Work, plan: &Plan) -> Option<()> {
-        let n = work.stretches.len();
+        let n = work.run.stretches.len();
         let mut parts = Vec::with_capacity(self.parts.len() + 2);
         let mut from = 0;
+        self.lost.clear();
         for to in 1..=n {
             if to < n && plan.nodes[to] == At::None && plan.care[to] == plan.care[from] {
                 continue;
             }
             let ends = [from, to].map(|i| self.at(i, work, plan));
             parts.push(self.part(from..to, ends, work, plan.care[from])?);
-            if ends[1] == At::Center
-                && let Some(Some(center)) = self.centers.get(&to)
+            if let At::Crest(halvings) = ends[1]
+                && let Some(Some(crest)) = self.crests.get(&(to, halvings))
             {
                 let begin = self.cells.len();
-                self.cells.push(center.cell);
-                parts.push(Part {
-                    stretches: to..to,
-                    care: 0,
-                    ends: [At::Center; 2],
-                    cells: begin..begin + 1,
-                });
+                self.cells.push(crest.cell);
+                let cells = begin..begin + 1;
+                parts.push(Part { stretches: to..to, care: 0, ends: [ends[1]; 2], cells });
             }
             from = to;
         }
@@ -198,11 +260,16 @@ impl Laid {
 
     /// What there is where stretch `i` begins: a node where there is no room for anything else.
     fn at(&mut self, i: usize, work: &Work, plan: &Plan) -> At {
-        if i == 0 || i == work.stretches.len() || plan.nodes[i] != At::Center {
-            return At::Node;
+        match plan.nodes[i] {
+            At::Crest(halvings) if self.crest(i, halvings, work).is_some() => At::Crest(halvings),
+            _ => At::Node,
         }
-        let center = self.centers.entry(i).or_insert_with(|| work.center(i));
-        if center.is_some() { At::Center } else { At::Node }
+    }
+
+    /// The arc over the apex where stretch `i` begins; the first of a ring counts as the last.
+    fn crest(&mut self, i: usize, halvings: i32, work: &Work) -> Option<Crest> {
+        let i = if i == 0 { work.run.stretches.len() } else { i };
+        *self.crests.entry((i, halvings)).or_insert_with(|| work.crest(i, halvings))
     }
 
     /// The part over some stretches, laid before if nothing has changed.
@@ -215,16 +282,28 @@ impl Laid {
         {
             return Some(self.parts[i].clone());
         }
-        let mut nodes = ends(work.track, &work.stretches[range.clone()]);
-        let center = |i: usize| self.centers.get(&i).copied().flatten();
-        if let (At::Center, Some(center)) = (at[0], center(range.start)) {
-            nodes[0] = center.nodes[1];
+        let mut nodes = ends(work.track, &work.run.stretches[range.clone()]);
+        if let At::Crest(halvings) = at[0] {
+            let crest = self.crest(range.start, halvings, work)?;
+            let turn = if range.start == 0 { work.run.end() - work.run.at(0) } else { 0.0 };
+            nodes[0] = Node { u: crest.nodes[1].u - turn, ..crest.nodes[1] };
         }
-        if let (At::Center, Some(center)) = (at[1], center(range.end)) {
-            nodes[1] = center.nodes[0];
+        if let At::Crest(halvings) = at[1] {
+            nodes[1] = self.crest(range.end, halvings, work)?.nodes[0];
         }
+        let crests = at.map(|at| matches!(at, At::Crest(_)));
+        let singles = at.map(|at| matches!(at, At::Crest(0 | 1)));
         let begin = self.cells.len();
-        work.fitter.fit(work.track, nodes, (work.tolerance, CAREFUL[care]), &mut self.cells)?;
+        let ends = Ends { nodes, crests, singles };
+        let laid = work.fitter.fit(work.track, &ends, (work.tolerance, CAREFUL[care]), &mut self.cells);
+        if laid.is_none() {
+            let lost = [range.start, range.end].into_iter().zip(crests).filter(|(_, crest)| *crest);
+            let before = self.lost.len();
+            self.lost.extend(lost.map(|(i, _)| work.run.at(i)));
+            if self.lost.len() == before {
+                return None;
+            }
+        }
         Some(Part { stretches: range, care, ends: at, cells: begin..self.cells.len() })
     }
 }
@@ -247,20 +326,21 @@ impl Span {
 }
 
 /// The parameters where the curvatures of the arcs do not rise and fall as those of the curve.
-fn wrong_places(cells: &[Cell], stretches: &[Stretch], noise: f64) -> Vec<f64> {
-    let spans: Vec<Span> = cells
-        .iter()
-        .flat_map(|c| {
-            let [a, b] = &c.arcs;
-            [Span::of(a, c.from, c.joint, noise), Span::of(b, c.joint, c.to, noise)]
-        })
-        .collect();
-    let apices: Vec<usize> =
-        (1..stretches.len()).filter(|&i| stretches[i].from.kind == CutKind::Apex).collect();
-    let at = |i: usize| stretches[apices[i]].from.u;
+fn wrong_places(cells: &[Cell], run: Run, noise: f64) -> Vec<f64> {
+    let mut spans: Vec<Span> =
+        cells.iter().flat_map(Cell::spans).map(|(arc, from, to)| Span::of(&arc, from, to, noise)).collect();
+    let stretches = run.stretches;
+    if run.ring {
+        // On around the ring, so that both sides of the seam are seen.
+        let turn = run.end() - run.at(0);
+        let first: Vec<Span> = spans.iter().take(2).copied().collect();
+        spans.extend(first.iter().map(|s| Span { from: s.from + turn, to: s.to + turn, ..*s }));
+    }
+    let apices: Vec<f64> = (1..=stretches.len()).filter(|&i| run.is_apex(i)).map(|i| run.at(i)).collect();
+    let at = |i: usize| apices[i];
     // Number of apices before a parameter, and of those that are not behind it.
-    let before = |u: f64| apices.partition_point(|&i| stretches[i].from.u < u);
-    let up_to = |u: f64| apices.partition_point(|&i| stretches[i].from.u <= u);
+    let before = |u: f64| apices.partition_point(|&a| a < u);
+    let up_to = |u: f64| apices.partition_point(|&a| a <= u);
     let inside = |s: &Span| before(s.to).saturating_sub(up_to(s.from));
     let mut wrong = Vec::new();
     let mut changes = Vec::new();

@@ -5,7 +5,7 @@
 
 use super::biarc::{Arc, Joint, Node, biarc};
 use super::bound::Distance;
-use super::march::March;
+use super::spread::{Ends, Goal, Spread};
 use super::track::Track;
 
 /// How nodes and joints are chosen.
@@ -51,29 +51,36 @@ pub(super) struct Cell {
 /// Fits runs; keeps its buffers from one to the next.
 #[derive(Debug, Default)]
 pub(super) struct Fitter {
-    march: March,
+    spread: Spread,
     /// Ends of the parts that wait to be halved.
     waiting: Vec<Node>,
 }
 
 impl Fitter {
-    /// Appends biarcs from one node to another; `None` when the limit on effort is reached.
+    /// Appends biarcs from one node to another; `None` when the limit on effort is reached, or nothing
+    /// fits beside arcs over apices.
     pub fn fit(
         &mut self,
         track: &Track,
-        ends: [Node; 2],
+        ends: &Ends,
         (tolerance, scheme): (f64, Scheme),
         out: &mut Vec<Cell>,
     ) -> Option<()> {
-        let joint = match scheme {
-            Scheme::Tilted | Scheme::Fewest | Scheme::Plain => Joint::Middle,
-            Scheme::Osculating | Scheme::Bisection | Scheme::Published => Joint::Osculating,
+        let (joint, constant) = match scheme {
+            Scheme::Osculating | Scheme::Bisection | Scheme::Published => (Joint::Osculating, 1.0 / 12.0),
+            Scheme::Plain => (Joint::MIDDLE, 2.0 / 81.0),
+            Scheme::Fewest | Scheme::Tilted => (Joint::MIDDLE, 3f64.sqrt() / 216.0),
         };
+        let tilted = matches!(scheme, Scheme::Fewest | Scheme::Tilted);
         let halves = matches!(scheme, Scheme::Bisection | Scheme::Published);
-        if !halves && self.march.run(track, ends, (tolerance, scheme), out).is_some() {
+        let goal = Goal { tolerance, joint, tilted, constant };
+        if !halves && self.spread.run(track, ends, &goal, out).is_some() {
             return Some(());
         }
-        self.halve(track, ends, (tolerance, joint), out)
+        if !halves && ends.crests != [false; 2] {
+            return None;
+        }
+        self.halve(track, ends.nodes, (tolerance, joint), out)
     }
 
     /// Halves a run until every biarc fits.
@@ -89,10 +96,10 @@ impl Fitter {
         self.waiting.push(to);
         let mut a = from;
         while let Some(&b) = self.waiting.last() {
-            let mut found = cell(track, &a, &b, joint);
+            let mut found = cell(track, [&a, &b], 0.5 * (a.u + b.u), joint, 0.0);
             if found.distance.bound > tolerance && joint == Joint::Osculating {
                 // At a curvature of zero and where it jumps there may be no osculating biarc.
-                let middle = cell(track, &a, &b, Joint::Middle);
+                let middle = cell(track, [&a, &b], 0.5 * (a.u + b.u), Joint::MIDDLE, 0.0);
                 if found.distance.bound.is_infinite() || middle.distance.bound <= tolerance {
                     found = middle;
                 }
@@ -130,13 +137,32 @@ fn blunt(a: &Node, b: &Node, reach: f64) -> Cell {
     Cell { arcs, from: a.u, joint: b.u, to: b.u, distance, sharp: true }
 }
 
-/// The biarc between two nodes with its distance from the curve.
-pub(super) fn cell(track: &Track, a: &Node, b: &Node, joint: Joint) -> Cell {
+impl Cell {
+    /// One arc alone for the curve between two parameters.
+    pub fn of_one(track: &Track, arc: Arc, [from, to]: [f64; 2], limit: f64) -> Cell {
+        let distance = track.measure_arc(&arc, from, to, limit);
+        let none = Arc { start: arc.end, end: arc.end, bulge: 0.0 };
+        Cell { arcs: [arc, none], from, joint: to, to, distance, sharp: false }
+    }
+
+    /// Its arcs that are any, with the parameters between which they stand for the curve.
+    pub fn spans(&self) -> impl Iterator<Item = (Arc, f64, f64)> + use<> {
+        let [a, b] = self.arcs;
+        let both = [(a, self.from, self.joint), (b, self.joint, self.to)];
+        both.into_iter().filter(|(arc, _, _)| arc.start != arc.end)
+    }
+}
+
+/// The biarc between two nodes with its distance from the curve, as precise as [`Frame::measure`]
+/// says; `middle` is a parameter near the joint.
+///
+/// [`Frame::measure`]: super::bound::Frame::measure
+pub(super) fn cell(track: &Track, [a, b]: [&Node; 2], middle: f64, joint: Joint, limit: f64) -> Cell {
     let none = Arc { start: a.place, end: b.place, bulge: 0.0 };
     let (from, to) = (a.u, b.u);
     match biarc(a, b, joint, track.grid) {
         Some(arcs) => {
-            let (distance, joint) = track.measure(&arcs, from, to);
+            let (distance, joint) = track.measure(&arcs, [from, middle, to], limit);
             Cell { arcs, from, joint, to, distance, sharp: false }
         }
         None => Cell { arcs: [none; 2], from, joint: to, to, distance: Distance::UNKNOWN, sharp: false },

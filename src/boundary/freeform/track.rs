@@ -92,31 +92,15 @@ impl<'a> Track<'a> {
 
     /// The node on the curve at a parameter that is no cut.
     pub fn node(&self, u: f64) -> Node {
-        self.node_and_slope(u).0
-    }
-
-    /// The node on the curve at a parameter that is no cut, and the derivative of the curvature.
-    pub fn node_and_slope(&self, u: f64) -> (Node, f64) {
         let (piece, t) = self.locate(u, Side::Before);
         let jet = piece.jet(t);
-        let node =
-            Node { u, place: self.grid.snap(jet.q), tangent: jet.d1.unit(), curvature: jet.curvature() };
-        (node, jet.curvature_slope())
+        Node { u, place: self.grid.snap(jet.q), tangent: jet.d1.unit(), curvature: jet.curvature() }
     }
 
     /// A distance from a place that the curve between two parameters does not exceed.
     pub fn reach(&self, place: Vector, from: f64, to: f64) -> f64 {
-        let mut reach = 0.0f64;
-        let mut whole = from.floor();
-        while whole < to {
-            let (a, b) = ((from - whole).max(0.0), (to - whole).min(1.0));
-            if a < b {
-                let part = self.piece(whole as usize).part(a, b);
-                reach = part.points().iter().fold(reach, |r, &p| r.max((p - place).length()));
-            }
-            whole += 1.0;
-        }
-        reach
+        let far = |r: f64, part: Piece| part.points().iter().fold(r, |r, &p| r.max((p - place).length()));
+        self.parts(from, to).fold(0.0, far)
     }
 
     /// Length of the diagonal of the box around all control points.
@@ -144,41 +128,56 @@ impl<'a> Track<'a> {
         }
     }
 
-    /// Distance between arcs and the parts of the curve they stand for, and the parameter between.
-    pub fn measure(&self, arcs: &[Arc; 2], from: f64, to: f64) -> (Distance, f64) {
-        let joint = self.beyond(arcs[0].end, arcs[0].end_tangent(), from, to);
-        let mut distance = self.measure_arc(&arcs[0], from, joint);
+    /// Distance between arcs and the parts of the curve they stand for, and the parameter between,
+    /// which is near the one in the middle of those given.
+    pub fn measure(&self, arcs: &[Arc; 2], [from, near, to]: [f64; 3], limit: f64) -> (Distance, f64) {
+        let joint = self.beyond(arcs[0].end, arcs[0].end_tangent(), [from, near, to]);
+        let mut distance = self.measure_arc(&arcs[0], from, joint, limit);
         if distance.bound.is_finite() {
-            distance = distance.max(self.measure_arc(&arcs[1], joint, to));
+            distance = distance.max(self.measure_arc(&arcs[1], joint, to, limit));
         }
         (distance, joint)
     }
 
-    /// Distance between an arc and the curve between two parameters.
-    pub fn measure_arc(&self, arc: &Arc, from: f64, to: f64) -> Distance {
+    /// Distance between an arc and the curve between two parameters; see [`Frame::measure`].
+    pub fn measure_arc(&self, arc: &Arc, from: f64, to: f64, limit: f64) -> Distance {
         if arc.start == arc.end {
             return Distance::UNKNOWN;
         }
         let frame = Frame::of(arc);
         let mut distance = Distance::ZERO;
-        let mut whole = from.floor();
-        while whole < to {
-            let (a, b) = ((from - whole).max(0.0), (to - whole).min(1.0));
-            if a < b {
-                let part = self.piece(whole as usize).part(a, b);
-                let found = if self.sampled { frame.sample(&part) } else { frame.measure(part) };
-                distance = distance.max(found);
-                if distance.bound.is_infinite() {
-                    break;
-                }
+        for part in self.parts(from, to) {
+            let found = if self.sampled { frame.sample(&part) } else { frame.measure(part, limit) };
+            distance = distance.max(found);
+            if distance.bound.is_infinite() {
+                break;
             }
-            whole += 1.0;
         }
         distance
     }
 
+    /// How far the curve between two parameters is to the left and to the right of an arc.
+    pub fn sides(&self, arc: &Arc, from: f64, to: f64) -> [f64; 2] {
+        let frame = Frame::of(arc);
+        self.parts(from, to).fold([0.0f64; 2], |[left, right], part| {
+            let [l, r] = frame.sides(part);
+            [left.max(l), right.max(r)]
+        })
+    }
+
+    /// The parts of pieces between two parameters.
+    fn parts(&self, from: f64, to: f64) -> impl Iterator<Item = Piece> {
+        let first = from.floor();
+        let count = ((to - first).ceil()).max(0.0) as usize;
+        (0..count).filter_map(move |i| {
+            let whole = first + i as f64;
+            let (a, b) = ((from - whole).max(0.0), (to - whole).min(1.0));
+            (a < b).then(|| self.piece(whole as usize).part(a, b))
+        })
+    }
+
     /// The parameter between two others where the curve crosses the normal at a joint.
-    fn beyond(&self, joint: Vector, tangent: Vector, from: f64, to: f64) -> f64 {
+    fn beyond(&self, joint: Vector, tangent: Vector, [from, near, to]: [f64; 3]) -> f64 {
         let ahead = |u: f64| {
             let (piece, t) = self.locate(u, Side::Before);
             (piece.at(t) - joint).dot(tangent)
@@ -189,7 +188,8 @@ impl<'a> Track<'a> {
         }
         let piece = self.piece(whole as usize);
         let (mut low, mut high) = ((from - whole).max(0.0), (to - whole).min(1.0));
-        let mut t = 0.5 * (low + high);
+        let near = near - whole;
+        let mut t = if near > low && near < high { near } else { 0.5 * (low + high) };
         for _ in 0..MAX_STEPS {
             let (q, d1) = piece.motion(t);
             let value = (q - joint).dot(tangent);

@@ -40,6 +40,10 @@ pub struct Fitted {
     pub elements: usize,
     /// No place of any is farther from its curve than this, nor the other way, in job units.
     pub bound: f64,
+    /// How many elements the polylines had in which arcs took the place of chords.
+    pub chords: usize,
+    /// How many elements those polylines have now.
+    pub arcs_of_chords: usize,
     /// How long that took.
     #[serde(skip)]
     pub time: Duration,
@@ -52,6 +56,16 @@ pub struct FitTolerance {
     pub mm: f64,
     /// In inches, for a job in inches.
     pub inch: f64,
+}
+
+impl FitTolerance {
+    /// That of a job in a unit.
+    pub(super) fn of(self, units: Units) -> f64 {
+        match units {
+            Units::Mm => self.mm,
+            Units::Inch => self.inch,
+        }
+    }
 }
 
 /// What of a drawing to read, and how.
@@ -78,6 +92,9 @@ pub struct ReadOptions {
     pub origin: Origin,
     /// How near to ellipses and splines their arcs must be.
     pub fit: FitTolerance,
+    /// How near to runs of chords of polylines arcs must be that take their place; `None` leaves all
+    /// chords as drawn.
+    pub chords: Option<FitTolerance>,
 }
 
 impl Default for ReadOptions {
@@ -93,6 +110,7 @@ impl Default for ReadOptions {
             hatch: false,
             origin: Origin::Dxf,
             fit: FitTolerance { mm: Units::Mm.tolerance().fit, inch: Units::Inch.tolerance().fit },
+            chords: None,
         }
     }
 }

@@ -1,11 +1,10 @@
-//! Ellipses and splines of a drawing become arcs and segments.
+//! Ellipses, splines and runs of chords of a drawing become arcs and segments.
 
 use super::{Drawing, FitTolerance};
 use crate::boundary::freeform::{CurveError, Fit};
 use crate::boundary::{Curve, FreeCurve, FreeShape};
-use crate::geom::Point;
+use crate::geom::{ArcSpline, Point};
 use crate::io::Warning;
-use crate::tolerance::Units;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -17,10 +16,7 @@ impl Drawing {
             return;
         }
         let begin = Instant::now();
-        let tolerance = match self.units {
-            Units::Mm => tolerance.mm,
-            Units::Inch => tolerance.inch,
-        };
+        let tolerance = tolerance.of(self.units);
         let fits: Vec<Result<Fit, CurveError>> = free.par_iter().map(|c| c.to_arcs(tolerance)).collect();
         let mut faults: BTreeMap<(String, String), (usize, FreeCurve)> = BTreeMap::new();
         for (curve, fit) in free.into_iter().zip(fits) {
@@ -40,7 +36,23 @@ impl Drawing {
             let (handle, at) = (first.source.handle, place(&first));
             Warning::NotFitted { entity, handle, reason, count, at }
         }));
-        self.fitted.time = begin.elapsed();
+        self.fitted.time += begin.elapsed();
+    }
+
+    /// Puts arcs in the place of runs of chords.
+    pub(super) fn fit_chords(&mut self, tolerance: FitTolerance) {
+        let begin = Instant::now();
+        let tolerance = tolerance.of(self.units);
+        let fits: Vec<Option<ArcSpline>> =
+            self.curves.par_iter().map(|c| c.path.with_arcs_for_chords(tolerance)).collect();
+        for (curve, fit) in self.curves.iter_mut().zip(fits) {
+            if let Some(path) = fit {
+                self.fitted.chords += curve.path.len();
+                self.fitted.arcs_of_chords += path.len();
+                curve.path = path;
+            }
+        }
+        self.fitted.time += begin.elapsed();
     }
 
     fn take(&mut self, fit: Fit, curve: FreeCurve) {

@@ -138,6 +138,9 @@ fn finish(scan: Scan, ended: bool, name: &str, options: &ReadOptions) -> Result<
     let name = name.to_owned();
     let mut drawing =
         Drawing { name, units, curves: collection.curves, warnings, inventory, ..Drawing::default() };
+    if let Some(tolerance) = options.chords {
+        drawing.fit_chords(tolerance);
+    }
     drawing.fit(collection.free, options.fit);
     drawing.warnings.extend(implausible(&drawing, &unit));
     drawing.move_origin(options.origin);
