@@ -65,7 +65,7 @@ impl Boundary {
     /// let boundary = Boundary::new([&plate, &bore]);
     ///
     /// // Some program offsets the wall to 3, a little off, and forgets the bore.
-    /// let wall = ArcSpline::closed([(3.0, 3.0, 0.0), (57.0, 3.0, 0.0), (57.0, 36.998, 0.0), (3.0, 37.0, 0.0)]);
+    /// let wall = ArcSpline::closed([(3.0, 3.0, 0.0), (57.0, 3.0, 0.0), (57.0, 36.998, 0.0), (3.0, 36.998, 0.0)]);
     /// let report = boundary.judge(3.0, &[wall], 0.01);
     /// assert!((report.max_deviation - 0.002).abs() < 1e-12);
     /// let [fault] = report.faults[..] else { panic!() };
