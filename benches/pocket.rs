@@ -39,7 +39,7 @@ fn axis_of(pocket: &Pocket) -> Mat {
 
 /// From finished arc splines to the finished axis.
 #[divan::bench(args = cases(), sample_size = 1, max_time = 3)]
-fn axis(bencher: Bencher, case: &String) {
+fn axis(bencher: Bencher, case: &str) {
     let pocket = pocket(case);
     let sites = axis_of(&pocket).counts().sites;
     bencher.counter(ItemsCount::new(sites)).bench(|| axis_of(&pocket));
@@ -50,7 +50,7 @@ const LEVELS: u32 = 20;
 
 /// Twenty level sets of a finished axis.
 #[divan::bench(args = cases(), sample_size = 1, max_time = 3)]
-fn levels(bencher: Bencher, case: &String) {
+fn levels(bencher: Bencher, case: &str) {
     let mat = axis_of(&pocket(case));
     let largest = mat.largest_disk().radius;
     bencher.counter(ItemsCount::new(mat.counts().sites)).bench(|| {
@@ -60,7 +60,7 @@ fn levels(bencher: Bencher, case: &String) {
 
 /// From finished arc splines to the text of a program of ten passes.
 #[divan::bench(args = cases(), sample_size = 1, max_time = 3)]
-fn job(bencher: Bencher, case: &String) {
+fn job(bencher: Bencher, case: &str) {
     let pocket = pocket(case);
     let mat = axis_of(&pocket);
     let step = 0.1 * mat.largest_disk().radius;

@@ -157,15 +157,15 @@ fn wall(path: &[Point]) -> Vec<Vertex> {
     let last = path.len() - 1;
     let sharp = |point| Vertex { point, bulge: 0.0 };
     let mut vertices = vec![sharp(path[0] + (along(0).right() - along(0)) * HALF_WIDTH)];
-    for i in 1..last {
-        let (before, after) = (along(i - 1), along(i));
+    for corner in path.windows(3) {
+        let (before, after) = ((corner[1] - corner[0]).unit(), (corner[2] - corner[1]).unit());
         let turn = before.cross(after);
-        let out = |v: Vector| path[i] + v.right() * HALF_WIDTH;
+        let out = |v: Vector| corner[1] + v.right() * HALF_WIDTH;
         if turn > 0.5 {
             vertices.push(Vertex { point: out(before), bulge: (TAU / 16.0).tan() });
             vertices.push(sharp(out(after)));
         } else if turn < -0.5 {
-            vertices.push(sharp(path[i] + (before.right() + after.right()) * HALF_WIDTH));
+            vertices.push(sharp(corner[1] + (before.right() + after.right()) * HALF_WIDTH));
         }
     }
     let end = along(last - 1);
