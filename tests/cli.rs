@@ -479,8 +479,7 @@ fn chords_become_arcs_where_that_is_asked_for() {
         (report["pockets"][0]["arcs"].as_u64().unwrap(), report["pockets"][0]["area"].as_f64().unwrap())
     };
     let (drawn, fitted) = (arcs(&[]), arcs(&["--fit", "0.01"]));
-    assert_eq!(drawn.0, 1004);
-    // The rectangle keeps its four sides.
-    assert!(fitted.0 <= 12 + 4, "{fitted:?}");
+    assert_eq!(drawn.0, 0);
+    assert!((4..=12).contains(&fitted.0), "{fitted:?}");
     assert!((fitted.1 - drawn.1).abs() < 0.1 && fitted.1 > drawn.1);
 }
