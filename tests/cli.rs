@@ -363,6 +363,7 @@ fn options_of_later_versions_are_not_swallowed() {
 fn level_sets_alone_need_no_tool() {
     let desk = Desk::new(&plate());
     desk.refuses(&["part.dxf", "--tool", "0", "--step", "2", "-o", "part.nc"], 2, "--tool 0");
+    desk.refuses(&["part.dxf", "--tool", "0", "--step", "90"], 1, "farther than 90 from the wall");
     desk.pocket(&["part.dxf", "--tool", "0", "--step", "2", "-o", "part.json"]).assert().success();
     let document: serde_json::Value = serde_json::from_str(&desk.read("part.json")).unwrap();
     assert_eq!(document["pockets"][0]["offsets"][0]["distance"], 2.0);
@@ -375,6 +376,9 @@ fn what_a_step_above_half_the_tool_leaves_is_cut_and_said() {
     run("80%").stderr(contains("step 4.8 mm").and(contains("passes along the axis")));
     run("50%").stderr(contains("along the axis").not());
     run("100%").stderr(contains("reduced"));
+    // 0.1719 * 100 / 100 is a rounding more.
+    let fine = ["part.dxf", "--tool", "0.1719", "--step", "100%", "--depth", "0.1"];
+    desk.pocket(&fine).assert().success().stderr(contains("reduced"));
 }
 
 #[test]

@@ -143,6 +143,8 @@ impl Job {
         let largest = path.pockets.iter().map(|p| p.largest_tool).fold(f64::NEG_INFINITY, f64::max);
         let reason = if path.pockets.is_empty() {
             "there is no pocket".to_owned()
+        } else if self.tool == 0.0 {
+            format!("no place of a pocket is farther than {} from the wall", self.distance(0))
         } else if largest > 0.0 {
             format!(
                 "the tool of {} is larger than every pocket; the largest that fits is {largest:.4}",

@@ -78,7 +78,8 @@ impl Args {
                 "--tool 0 needs a step that is a length",
                 "say how far the level sets lie apart: --step 0.5",
             )),
-            (Some(tool), Some(Step::Percent(percent))) => Ok((tool, tool * percent / 100.0)),
+            // The whole tool is never more than the tool, by no rounding.
+            (Some(tool), Some(Step::Percent(percent))) => Ok((tool, (tool * percent / 100.0).min(tool))),
             (Some(tool), None) => Ok((tool, tool * DEFAULT_PERCENT / 100.0)),
             (None, _) => Err(Failure::usage(
                 "the size of the tool is not known",
