@@ -11,8 +11,8 @@ use shapes::Random;
 
 const STEPS: [f64; 6] = [0.2, 0.45, 0.55, 0.75, 0.9, 1.0];
 
-/// Relative to the tool: levels are computed to a few roundings of the size of the pocket.
-const ROUND_OFF: f64 = 1e-7;
+/// Relative to the tool, in pockets of some tools across: some thousand roundings of a place of a level.
+const ROUND_OFF: f64 = 1e-12;
 
 fn mat(loops: Vec<ArcSpline>) -> Mat {
     Pocket::from_loops(loops, Tolerance::MM).unwrap().medial_axis().unwrap()
