@@ -1,12 +1,11 @@
 //! `pocket check` as a user meets it: right offsets pass, every way to be wrong is found with its place.
 
 use assert_cmd::Command;
+use desk::Desk;
 use predicates::str::contains;
 use serde_json::Value;
 use std::f64::consts::PI;
 use std::fs;
-use std::path::PathBuf;
-use tempfile::TempDir;
 
 /// Tangent of a quarter of a right angle: the bulge of a quarter circle.
 const QUARTER: f64 = 0.414_213_562_373_095_03;
@@ -61,30 +60,19 @@ fn circle(x: f64, y: f64, r: f64) -> Loop {
     vec![[x + r, y, 1.0], [x - r, y, 1.0]]
 }
 
-struct Desk {
-    folder: TempDir,
-}
+#[path = "support/desk.rs"]
+mod desk;
 
 impl Desk {
-    fn new(offsets: &[Loop]) -> Desk {
-        let desk = Desk { folder: tempfile::tempdir().unwrap() };
-        desk.put("part.dxf", &part());
+    /// With the part and offsets of it.
+    fn with_offsets(offsets: &[Loop]) -> Desk {
+        let desk = Desk::new(&part());
         desk.put("theirs.json", &serde_json::to_string(offsets).unwrap());
         desk
     }
 
-    fn path(&self, name: &str) -> PathBuf {
-        self.folder.path().join(name)
-    }
-
-    fn put(&self, name: &str, text: &str) {
-        fs::write(self.path(name), text).unwrap();
-    }
-
     fn check(&self, arguments: &[&str]) -> Command {
-        let mut command = Command::cargo_bin("pocket").unwrap();
-        command.current_dir(&self.folder).args([&["check", "part.dxf"], arguments].concat());
-        command
+        self.pocket(&[&["check", "part.dxf"], arguments].concat())
     }
 
     /// The report on the offsets in JSON at a distance, and the exit status.
@@ -112,7 +100,7 @@ fn faults(report: &Value, kind: &str) -> Vec<Found> {
 
 /// What is told of offsets at 2 that are wrong: missing parts and phantom parts.
 fn wrong(offsets: &[Loop]) -> [Vec<Found>; 2] {
-    let (report, exit) = Desk::new(offsets).report(&["--distance", "2"]);
+    let (report, exit) = Desk::with_offsets(offsets).report(&["--distance", "2"]);
     assert_eq!((report["right"].as_bool(), exit), (Some(false), 3), "{report}");
     assert!(report["levels"][0]["other"].as_array().unwrap().is_empty(), "{report}");
     ["missing", "phantom"].map(|kind| faults(&report, kind))
@@ -124,13 +112,13 @@ fn near(a: f64, b: f64, by: f64) -> bool {
 
 #[test]
 fn right_offsets_pass_in_any_direction_and_form() {
-    let desk = Desk::new(&right());
+    let desk = Desk::with_offsets(&right());
     let (report, exit) = desk.report(&["--distance", "2"]);
     assert_eq!((report["right"].as_bool(), exit), (Some(true), 0), "{report}");
     assert!(report["max_deviation"].as_f64().unwrap() < 1e-13 && report["within"] == 0.001);
     let mut turned = right();
     turned[1] = vec![[5.0, 10.0, -1.0], [15.0, 10.0, -1.0]];
-    assert_eq!(Desk::new(&turned).report(&["--distance", "2"]).1, 0);
+    assert_eq!(Desk::with_offsets(&turned).report(&["--distance", "2"]).1, 0);
     // As loose lines and arcs of a drawing in centimeters, one of them reversed.
     let line = |a: [f64; 2], b: [f64; 2]| {
         let [x0, y0, x1, y1] = [a[0], a[1], b[0], b[1]].map(|c| 0.1 * c);
@@ -167,7 +155,7 @@ fn a_moved_vertex_is_found_where_it_is() {
     assert!(near(m.0[1], 2.0, 0.1) && m.0[0] > 36.0 && near(m.1, 0.4, 0.1), "{m:?}");
     // As far off as is allowed.
     let loose = ["--distance", "2", "--within", "0.41"];
-    assert_eq!(Desk::new(&offsets).report(&loose).1, 0);
+    assert_eq!(Desk::with_offsets(&offsets).report(&loose).1, 0);
 }
 
 #[test]
@@ -219,9 +207,9 @@ fn a_flattened_offset_passes_within_its_sag() {
     };
     offsets[1] = (0..100).map(at).collect();
     let sag = 5.0 * (1.0 - (PI / 100.0).cos());
-    let (report, exit) = Desk::new(&offsets).report(&["--distance", "2", "--within", "0.0025"]);
+    let (report, exit) = Desk::with_offsets(&offsets).report(&["--distance", "2", "--within", "0.0025"]);
     assert!(exit == 0 && near(report["max_deviation"].as_f64().unwrap(), sag, 1e-9), "{report}");
-    let (report, exit) = Desk::new(&offsets).report(&["--distance", "2", "--within", "0.0024"]);
+    let (report, exit) = Desk::with_offsets(&offsets).report(&["--distance", "2", "--within", "0.0024"]);
     assert_eq!((exit, faults(&report, "phantom").len()), (3, 1));
 }
 
@@ -244,10 +232,10 @@ fn outward_offsets_are_judged_outside_and_in_the_islands() {
         [-1.0, 20.0, 0.0],
         [-1.0, 0.0, q],
     ];
-    let desk = Desk::new(&[around.clone(), circle(10.0, 10.0, 2.0)]);
+    let desk = Desk::with_offsets(&[around.clone(), circle(10.0, 10.0, 2.0)]);
     assert_eq!(desk.report(&["--distance", "1", "--outward"]).1, 0);
     assert_eq!(desk.report(&["--distance", "1"]).1, 3);
-    let desk = Desk::new(&[around]);
+    let desk = Desk::with_offsets(&[around]);
     let (report, exit) = desk.report(&["--distance", "1", "--outward"]);
     let missing = faults(&report, "missing");
     assert!(exit == 3 && missing.len() == 1 && near(missing[0].3, 4.0 * PI, 0.1), "{report}");
@@ -255,9 +243,8 @@ fn outward_offsets_are_judged_outside_and_in_the_islands() {
 
 #[test]
 fn levels_of_a_document_are_judged_each_at_its_distance() {
-    let desk = Desk::new(&[]);
-    let mut pocket = Command::cargo_bin("pocket").unwrap();
-    pocket.current_dir(&desk.folder).args(["part.dxf", "--tool", "2", "--step", "50%"]);
+    let desk = Desk::with_offsets(&[]);
+    let mut pocket = desk.pocket(&["part.dxf", "--tool", "2", "--step", "50%"]);
     pocket.args(["-o", "theirs.json", "-o", "all.dxf"]).assert().success();
     let (report, exit) = desk.report(&[]);
     assert!(exit == 0 && report["levels"].as_array().unwrap().len() > 3, "{report}");
@@ -274,7 +261,7 @@ fn levels_of_a_document_are_judged_each_at_its_distance() {
 
 #[test]
 fn a_picture_has_the_faults_with_their_numbers() {
-    let desk = Desk::new(&right()[..1]);
+    let desk = Desk::with_offsets(&right()[..1]);
     let arguments = ["--offsets", "theirs.json", "--distance", "2", "-o", "a.svg"];
     desk.check(&arguments).assert().code(3).stdout(contains("1. missing: a part 31.4"));
     let picture = fs::read_to_string(desk.path("a.svg")).unwrap();
@@ -283,7 +270,7 @@ fn a_picture_has_the_faults_with_their_numbers() {
 
 #[test]
 fn wrong_use_is_told_with_the_cure() {
-    let desk = Desk::new(&right());
+    let desk = Desk::with_offsets(&right());
     desk.put("bad.json", "[[[1]]]");
     let said = |arguments: &[&str], code: i32, what: &str| {
         desk.check(arguments).assert().code(code).stderr(contains(what));

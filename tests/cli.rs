@@ -1,33 +1,20 @@
 //! The binary as a user meets it: what it writes, what it says, how it ends.
 
-use assert_cmd::Command;
+use desk::Desk;
 use predicates::prelude::*;
 use predicates::str::{contains, is_empty, is_match};
 use std::fs;
 use std::path::{Path, PathBuf};
-use tempfile::TempDir;
 
-/// A folder with a drawing in it and an output file from before.
-struct Desk {
-    folder: TempDir,
-}
+#[path = "support/desk.rs"]
+mod desk;
 
 impl Desk {
-    fn new(drawing: &str) -> Desk {
-        let desk = Desk { folder: tempfile::tempdir().unwrap() };
-        fs::write(desk.path("part.dxf"), drawing).unwrap();
-        fs::write(desk.path("part.nc"), "old").unwrap();
+    /// With an output file from before.
+    fn used(drawing: &str) -> Desk {
+        let desk = Desk::new(drawing);
+        desk.put("part.nc", "old");
         desk
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.folder.path().join(name)
-    }
-
-    fn pocket(&self, arguments: &[&str]) -> Command {
-        let mut command = Command::cargo_bin("pocket").unwrap();
-        command.current_dir(&self.folder).args(arguments);
-        command
     }
 
     fn read(&self, name: &str) -> String {
@@ -82,7 +69,7 @@ fn sample(name: &str) -> PathBuf {
 
 #[test]
 fn a_drawing_becomes_a_program() {
-    let desk = Desk::new(&plate());
+    let desk = Desk::used(&plate());
     desk.pocket(&["part.dxf", "--step", "0.5", "-o", "part.nc"])
         .assert()
         .success()
@@ -96,7 +83,7 @@ fn a_drawing_becomes_a_program() {
 
 #[test]
 fn one_run_writes_every_form_that_is_asked_for() {
-    let desk = Desk::new(&plate());
+    let desk = Desk::used(&plate());
     let outputs = ["-o", "part.nc", "-o", "part.json", "-o", "part.svg", "-o", "out.DXF"];
     desk.pocket(&["part.dxf", "--tool", "6", "--step", "40%", "--depth", "5", "--step-down", "1.5"])
         .args(outputs)
@@ -116,7 +103,7 @@ fn one_run_writes_every_form_that_is_asked_for() {
 
 #[test]
 fn a_written_drawing_is_read_again_by_its_layers() {
-    let desk = Desk::new(&plate());
+    let desk = Desk::used(&plate());
     desk.pocket(&["part.dxf", "--tool", "6", "-o", "out.dxf", "-o", "part.json"]).assert().success();
     desk.pocket(&["out.dxf", "--layer", "BOUNDARY", "--tool", "6", "-o", "again.json"]).assert().success();
     let boundary = |name: &str| {
@@ -130,14 +117,14 @@ fn a_written_drawing_is_read_again_by_its_layers() {
 
 #[test]
 fn without_output_there_is_a_report_only() {
-    let desk = Desk::new(&plate());
+    let desk = Desk::used(&plate());
     desk.pocket(&["part.dxf", "--tool", "6"]).assert().success().stdout(is_empty());
     assert_eq!(desk.read("part.nc"), "old");
 }
 
 #[test]
 fn a_program_goes_to_standard_output_and_nothing_else_does() {
-    let desk = Desk::new(&plate());
+    let desk = Desk::used(&plate());
     let out = desk.pocket(&["part.dxf", "--tool", "6", "-o", "-"]).assert().success().get_output().clone();
     desk.pocket(&["part.dxf", "--tool", "6", "-o", "part.nc"]).assert().success();
     assert_eq!(String::from_utf8(out.stdout).unwrap(), desk.read("part.nc"));
@@ -145,7 +132,7 @@ fn a_program_goes_to_standard_output_and_nothing_else_does() {
 
 #[test]
 fn the_json_report_has_the_keys_of_its_contract() {
-    let desk = Desk::new(&plate());
+    let desk = Desk::used(&plate());
     let run = |more: &[&str]| -> serde_json::Value {
         let mut command = desk.pocket(&["part.dxf", "--tool", "6", "--report", "json"]);
         let out = command.args(more).assert().success().get_output().stdout.clone();
@@ -191,7 +178,7 @@ fn the_json_report_has_the_keys_of_its_contract() {
 
 #[test]
 fn the_program_does_not_depend_on_the_number_of_threads() {
-    let desk = Desk::new(&plate());
+    let desk = Desk::used(&plate());
     let run = |jobs: &str| {
         let mut command = desk.pocket(&["part.dxf", "--step", "0.5", "--jobs", jobs, "-o", "-"]);
         command.assert().success().get_output().stdout.clone()
@@ -205,7 +192,7 @@ fn every_sample_is_machined_and_judged_right() {
     let mut names: Vec<PathBuf> = folder.map(|f| f.unwrap().path()).collect();
     names.retain(|p| p.extension().is_some_and(|e| e == "dxf"));
     assert!(names.len() >= 8);
-    let desk = Desk::new("");
+    let desk = Desk::used("");
     for path in names {
         let step = if path.ends_with("inch.dxf") { "0.02in" } else { "0.5mm" };
         desk.pocket(&[path.to_str().unwrap(), "--step", step, "-o", "part.nc", "--verify", "--strict"])
@@ -217,7 +204,7 @@ fn every_sample_is_machined_and_judged_right() {
 
 #[test]
 fn lengths_with_units_mean_the_same_in_any_job() {
-    let desk = Desk::new(&plate());
+    let desk = Desk::used(&plate());
     let run = |arguments: &[&str]| {
         let mut command = desk.pocket(&["part.dxf", "-o", "-"]);
         command.args(arguments).assert().success().get_output().stdout.clone()
@@ -234,14 +221,14 @@ fn lengths_with_units_mean_the_same_in_any_job() {
 
 #[test]
 fn a_drawing_in_inches_is_an_inch_job() {
-    let desk = Desk::new(&drawing_in(1, &[rectangle(0.0, 0.0, 3.0, 2.0)]));
+    let desk = Desk::used(&drawing_in(1, &[rectangle(0.0, 0.0, 3.0, 2.0)]));
     desk.pocket(&["part.dxf", "--tool", "0.25", "-o", "part.nc"]).assert().success();
     assert!(desk.read("part.nc").contains("G20"));
 }
 
 #[test]
 fn a_drawing_that_is_not_there_is_exit_1() {
-    let desk = Desk::new(&plate());
+    let desk = Desk::used(&plate());
     desk.refuses(&["none.dxf", "--step", "0.5", "-o", "part.nc"], 1, "none.dxf");
     desk.refuses(&[".", "--step", "0.5", "-o", "part.nc"], 1, "cannot read");
 }
@@ -249,36 +236,36 @@ fn a_drawing_that_is_not_there_is_exit_1() {
 #[test]
 fn what_is_no_drawing_is_exit_1() {
     for text in ["", "\n\n", "hello", "%PDF-1.7\n", "0\nSECTION\n"] {
-        Desk::new(text).refuses(&["part.dxf", "--step", "0.5", "-o", "part.nc"], 1, "help:");
+        Desk::used(text).refuses(&["part.dxf", "--step", "0.5", "-o", "part.nc"], 1, "help:");
     }
 }
 
 #[test]
 fn a_drawing_without_a_closed_contour_is_exit_1_with_the_gap() {
     let open = [line(0.0, 0.0, 30.0, 0.0), line(30.0, 0.0, 30.0, 20.0), line(30.0, 20.0, 0.0, 1.0)];
-    let desk = Desk::new(&drawing(&open));
+    let desk = Desk::used(&drawing(&open));
     desk.refuses(&["part.dxf", "--step", "0.5", "-o", "part.nc"], 1, "nothing to machine");
     desk.refuses(&["part.dxf", "--step", "0.5", "-o", "part.nc"], 1, "--join");
-    Desk::new(&drawing(&[])).refuses(&["part.dxf", "--step", "0.5"], 1, "nothing to machine");
+    Desk::used(&drawing(&[])).refuses(&["part.dxf", "--step", "0.5"], 1, "nothing to machine");
 }
 
 #[test]
 fn a_drawing_where_everything_crosses_is_exit_1_with_the_places() {
-    let desk = Desk::new(&drawing(&[rectangle(0.0, 0.0, 30.0, 20.0), circle(30.0, 10.0, 5.0)]));
+    let desk = Desk::used(&drawing(&[rectangle(0.0, 0.0, 30.0, 20.0), circle(30.0, 10.0, 5.0)]));
     desk.refuses(&["part.dxf", "--step", "0.5", "-o", "part.nc"], 1, "nothing to machine");
     desk.refuses(&["part.dxf", "--step", "0.5", "-o", "part.nc"], 1, "at: (");
 }
 
 #[test]
 fn a_tool_larger_than_every_pocket_is_exit_1_with_the_largest_that_fits() {
-    let desk = Desk::new(&drawing(&[circle(0.0, 0.0, 5.0), circle(20.0, 0.0, 4.0)]));
+    let desk = Desk::used(&drawing(&[circle(0.0, 0.0, 5.0), circle(20.0, 0.0, 4.0)]));
     desk.refuses(&["part.dxf", "--tool", "10.5", "-o", "part.nc"], 1, "10");
     desk.refuses(&["part.dxf", "--tool", "10.5", "-o", "part.nc"], 1, "largest that fits");
 }
 
 #[test]
 fn a_tool_too_large_for_one_pocket_leaves_that_one_out_and_says_so() {
-    let desk = Desk::new(&drawing(&[circle(0.0, 0.0, 5.0), circle(20.0, 0.0, 4.0)]));
+    let desk = Desk::used(&drawing(&[circle(0.0, 0.0, 5.0), circle(20.0, 0.0, 4.0)]));
     desk.pocket(&["part.dxf", "--tool", "9", "-o", "part.nc"])
         .assert()
         .success()
@@ -289,7 +276,7 @@ fn a_tool_too_large_for_one_pocket_leaves_that_one_out_and_says_so() {
 
 #[test]
 fn numbers_that_make_no_sense_are_usage_errors() {
-    let desk = Desk::new(&plate());
+    let desk = Desk::used(&plate());
     let cases: [&[&str]; 16] = [
         &["--step", "0"],
         &["--step", "-1"],
@@ -316,14 +303,14 @@ fn numbers_that_make_no_sense_are_usage_errors() {
 
 #[test]
 fn a_share_of_no_tool_is_a_usage_error() {
-    let desk = Desk::new(&plate());
+    let desk = Desk::used(&plate());
     desk.refuses(&["part.dxf", "--step", "40%", "-o", "part.nc"], 2, "--tool");
     desk.refuses(&["part.dxf", "-o", "part.nc"], 2, "--step");
 }
 
 #[test]
 fn usage_is_judged_before_the_drawing_is_read() {
-    let desk = Desk::new("no drawing");
+    let desk = Desk::used("no drawing");
     desk.refuses(&["part.dxf", "--step", "40%"], 2, "--tool");
     desk.refuses(&["none.dxf", "--step", "0.5", "-o", "part.xyz"], 2, "part.xyz");
     desk.refuses(&["none.dxf", "--tool", "6", "--step", "7"], 2, "step");
@@ -331,7 +318,7 @@ fn usage_is_judged_before_the_drawing_is_read() {
 
 #[test]
 fn an_extension_without_a_form_is_a_usage_error() {
-    let desk = Desk::new(&plate());
+    let desk = Desk::used(&plate());
     for name in ["part.xyz", "part", "part.nc.bak"] {
         desk.refuses(&["part.dxf", "--step", "0.5", "-o", "part.nc", "-o", name], 2, name);
     }
@@ -340,20 +327,20 @@ fn an_extension_without_a_form_is_a_usage_error() {
 
 #[test]
 fn a_file_that_cannot_be_written_leaves_all_as_they_were() {
-    let desk = Desk::new(&plate());
+    let desk = Desk::used(&plate());
     desk.refuses(&["part.dxf", "--step", "0.5", "-o", "part.nc", "-o", "none/part.svg"], 1, "cannot write");
 }
 
 #[test]
 fn names_of_subcommands_are_kept() {
-    let desk = Desk::new(&plate());
+    let desk = Desk::used(&plate());
     desk.refuses(&["--step", "0.5", "check"], 2, "./check");
     desk.refuses(&["--step", "0.5", "inspect"], 2, "./inspect");
 }
 
 #[test]
 fn options_of_later_versions_are_not_swallowed() {
-    let desk = Desk::new(&plate());
+    let desk = Desk::used(&plate());
     for option in [["--strategy", "spiral"], ["--post", "grbl"], ["--job", "a.toml"]] {
         desk.refuses(&[&["part.dxf", "--step", "0.5"], &option[..]].concat(), 2, option[0]);
     }
@@ -361,7 +348,7 @@ fn options_of_later_versions_are_not_swallowed() {
 
 #[test]
 fn level_sets_alone_need_no_tool() {
-    let desk = Desk::new(&plate());
+    let desk = Desk::used(&plate());
     desk.refuses(&["part.dxf", "--tool", "0", "--step", "2", "-o", "part.nc"], 2, "--tool 0");
     desk.refuses(&["part.dxf", "--tool", "0", "--step", "90"], 1, "farther than 90 from the wall");
     desk.pocket(&["part.dxf", "--tool", "0", "--step", "2", "-o", "part.json"]).assert().success();
@@ -371,7 +358,7 @@ fn level_sets_alone_need_no_tool() {
 
 #[test]
 fn what_a_step_above_half_the_tool_leaves_is_cut_and_said() {
-    let desk = Desk::new(&plate());
+    let desk = Desk::used(&plate());
     let run = |step: &str| desk.pocket(&["part.dxf", "--tool", "6", "--step", step]).assert().success();
     run("80%").stderr(contains("step 4.8 mm").and(contains("passes along the axis")));
     run("50%").stderr(contains("along the axis").not());
@@ -383,7 +370,7 @@ fn what_a_step_above_half_the_tool_leaves_is_cut_and_said() {
 
 #[test]
 fn quiet_says_nothing_but_errors() {
-    let desk = Desk::new(&plate());
+    let desk = Desk::used(&plate());
     desk.pocket(&["part.dxf", "--tool", "6", "--quiet"]).assert().success().stderr(is_empty());
     let error = desk.pocket(&["part.dxf", "--tool", "60", "--quiet"]).assert().code(1).get_output().clone();
     let told = String::from_utf8(error.stderr).unwrap();
@@ -392,7 +379,7 @@ fn quiet_says_nothing_but_errors() {
 
 #[test]
 fn an_outline_with_everything_in_it_may_be_skipped() {
-    let desk = Desk::new(&drawing(&[
+    let desk = Desk::used(&drawing(&[
         rectangle(0.0, 0.0, 60.0, 40.0),
         circle(15.0, 20.0, 8.0),
         circle(45.0, 20.0, 10.0),
@@ -415,7 +402,7 @@ fn an_outline_with_everything_in_it_may_be_skipped() {
 
 #[test]
 fn all_entries_that_are_not_as_asked_make_one_warning() {
-    let desk = Desk::new(&drawing(&[rectangle(0.0, 0.0, 60.0, 6.8), rectangle(0.0, 10.0, 60.0, 16.8)]));
+    let desk = Desk::used(&drawing(&[rectangle(0.0, 0.0, 60.0, 6.8), rectangle(0.0, 10.0, 60.0, 16.8)]));
     let run = desk.pocket(&["part.dxf", "--tool", "6", "--step", "40%", "--depth", "9"]).assert();
     let told = String::from_utf8(run.success().get_output().stderr.clone()).unwrap();
     assert_eq!(told.matches("instead of entries by helix").count(), 1, "{told}");
@@ -423,7 +410,7 @@ fn all_entries_that_are_not_as_asked_make_one_warning() {
 
 #[test]
 fn help_is_short_and_long() {
-    let desk = Desk::new("");
+    let desk = Desk::used("");
     let length = |flag: &str| desk.pocket(&[flag]).assert().success().get_output().stdout.len();
     assert!(length("-h") < length("--help"));
     desk.pocket(&["--version"]).assert().success().stdout(contains("pocket"));
@@ -433,7 +420,7 @@ fn help_is_short_and_long() {
 #[test]
 fn a_reader_that_goes_away_is_quiet_success() {
     use std::process::{Command, Stdio};
-    let desk = Desk::new(&plate());
+    let desk = Desk::used(&plate());
     let mut child = Command::new(assert_cmd::cargo::cargo_bin("pocket"))
         .current_dir(&desk.folder)
         .args(["part.dxf", "--step", "0.2", "--quiet", "--entry", "ramp", "-o", "-"])
@@ -450,7 +437,7 @@ fn a_reader_that_goes_away_is_quiet_success() {
 /// The way inward links as often as the way outward: its passes begin at the feet of the inner ones.
 #[test]
 fn clearing_from_outside_retracts_no_more_often() {
-    let desk = Desk::new("");
+    let desk = Desk::used("");
     let retracts = |name: &str, start: &str| {
         let drawing = sample(name);
         let run = desk
@@ -475,7 +462,7 @@ fn chords_become_arcs_where_that_is_asked_for() {
         })
         .collect();
     let round = format!("0\nLWPOLYLINE\n8\n0\n90\n{count}\n70\n1\n{vertices}");
-    let desk = Desk::new(&drawing(&[round, rectangle(-5.0, -5.0, 5.0, 5.0)]));
+    let desk = Desk::used(&drawing(&[round, rectangle(-5.0, -5.0, 5.0, 5.0)]));
     let arcs = |options: &[&str]| {
         let arguments = [&["part.dxf", "--tool", "6", "--report", "json"], options].concat();
         let output = desk.pocket(&arguments).assert().success().get_output().stdout.clone();

@@ -1,33 +1,18 @@
 //! `pocket inspect` as a user meets it: what it tells, what it draws, how it ends.
 
 use assert_cmd::Command;
+use desk::Desk;
 use predicates::prelude::*;
 use predicates::str::{contains, is_empty};
 use serde_json::Value;
 use std::fs;
-use std::path::PathBuf;
-use tempfile::TempDir;
 
-/// A folder with a drawing in it.
-struct Desk {
-    folder: TempDir,
-}
+#[path = "support/desk.rs"]
+mod desk;
 
 impl Desk {
-    fn new(drawing: &str) -> Desk {
-        let desk = Desk { folder: tempfile::tempdir().unwrap() };
-        fs::write(desk.path("part.dxf"), drawing).unwrap();
-        desk
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.folder.path().join(name)
-    }
-
     fn inspect(&self, arguments: &[&str]) -> Command {
-        let mut command = Command::cargo_bin("pocket").unwrap();
-        command.current_dir(&self.folder).args([&["inspect", "part.dxf"], arguments].concat());
-        command
+        self.pocket(&[&["inspect", "part.dxf"], arguments].concat())
     }
 
     /// Everything that is told, as JSON.
