@@ -9,6 +9,10 @@ use std::f64::consts::TAU;
 /// Parameters of a whole ellipse, written with 15 digits, differ by a whole turn less this part.
 const WRITTEN: f64 = 64.0 * f64::EPSILON;
 
+/// A whole turn written with six digits or more, as 6.28319, exceeds one by this part at most. Nobody
+/// draws the rest of it, an arc of a millionth of a turn.
+const WRITTEN_SHORT: f64 = 1e-6;
+
 /// Lines are drawn in the coordinates of the world, whatever their extrusion direction is.
 pub(super) fn line(numbers: Numbers, stage: Stage, drawn: &mut Drawn) -> Result<(), Skip> {
     let ends = [numbers.place(10)?, numbers.place(11)?];
@@ -59,7 +63,11 @@ impl Sweep {
         if start == end {
             return Skip::fault("it begins and ends at the same angle");
         }
+        let is_whole = (full..=full * (1.0 + WRITTEN_SHORT)).contains(&(end - start));
         let (start, end) = (start.rem_euclid(full), end.rem_euclid(full));
+        if is_whole {
+            return Ok(Sweep { start, end: start, turn: full });
+        }
         // The larger angle goes first, so that equal angles leave a full turn.
         let turn = if start < end { end - start } else { full - (start - end) };
         let turn = if full - turn <= WRITTEN * full { full } else { turn };
@@ -231,6 +239,7 @@ mod tests {
         let full = arc(3.0, 33.0, 393.0);
         assert!(full.closed && (full.area() - 9.0 * std::f64::consts::PI).abs() < 1e-12);
         assert!(fault_of(Kind::Arc, &an_arc(3.0, 33.0, 33.0)).contains("same angle"));
+        assert!(arc(3.0, 0.0, 360.0001).closed && !arc(3.0, 0.0, 361.0).closed);
     }
 
     #[test]
@@ -279,6 +288,9 @@ mod tests {
         assert_eq!((e.center, e.major, e.ratio, e.start), (point(1.0, 2.0), vector(4.0, 3.0), 0.5, 0.5));
         assert!((e.sweep - (6.5 - TAU)).abs() < 1e-14);
         assert!(free(&an_ellipse((4.0, 0.0), 0.5, 0.0, TAU * (1.0 - 8.0 * f64::EPSILON))).is_full());
+        for written in [6.28319, 6.283_185_31, 6.283_185_307_18] {
+            assert!(free(&an_ellipse((4.0, 0.0), 0.5, 0.0, written)).is_full(), "{written}");
+        }
         // Seen from below it runs the other way.
         let mut below = an_ellipse((4.0, 0.0), 0.5, 0.0, FRAC_PI_2);
         below.push((230, -1.0));
