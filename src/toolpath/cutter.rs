@@ -59,6 +59,11 @@ impl<'a> Cutter<'a> {
         self.at.map(Point3::xy)
     }
 
+    /// The height at which the tool is, once it has moved.
+    pub fn height(&self) -> Option<f64> {
+        self.at.map(|at| at.z)
+    }
+
     /// Height of rapids across.
     fn clearance(&self) -> f64 {
         self.job.top + self.job.clearance

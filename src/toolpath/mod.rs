@@ -15,6 +15,7 @@
 //! up, across, and down into a neighbor (`approach`); what has no neighbor that is cut is entered by
 //! a helix or a ramp into the stock (`entry`). What stands between levels more than the tool radius
 //! apart is cut along the axis (`crest`, `trim`), when the tool comes by for the last time (`run`).
+//! Finishing passes are met and left on arcs (`lead`).
 
 mod approach;
 mod course;
@@ -24,6 +25,7 @@ mod detour;
 mod entry;
 mod indexed;
 mod job;
+mod lead;
 mod moves;
 mod nest;
 mod path;

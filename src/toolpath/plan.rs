@@ -12,6 +12,7 @@ use super::crest::{Crest, Reach};
 use super::cutter::Cutter;
 use super::detour::Detours;
 use super::indexed::Indexed;
+use super::lead::ShortLeads;
 use super::nest::{Nest, Pass, index};
 use super::roads::Roads;
 use super::{Direction, Job, Start, Warning};
@@ -39,6 +40,8 @@ pub(super) struct Planner<'a> {
     pub crests: Crests,
     /// Ramps and plunges that stand for another kind of entry, and the first of these plunges.
     pub fallbacks: Option<(usize, usize, Option<Point>)>,
+    /// Leads that had less room than asked.
+    pub leads: ShortLeads,
 }
 
 /// Excursions along the axis, for what stands between passes.
@@ -80,7 +83,13 @@ pub(super) struct Height {
 impl<'a> Planner<'a> {
     /// A planner without moves yet.
     pub fn new(job: &'a Job) -> Planner<'a> {
-        Planner { job, cutter: Cutter::new(job), crests: Crests::default(), fallbacks: None }
+        Planner {
+            job,
+            cutter: Cutter::new(job),
+            crests: Crests::default(),
+            fallbacks: None,
+            leads: ShortLeads::default(),
+        }
     }
 
     /// Cuts a pocket and answers the number of passes. Without its axis, links are straight.
@@ -132,15 +141,25 @@ impl<'a> Planner<'a> {
             self.passes(&mut ground, &rough, Height { surface, z })?;
             surface = z;
         }
-        self.passes(&mut ground, &wall, Height { surface: self.job.top, z: surface })?;
+        let height = Height { surface: self.job.top, z: surface };
+        for (i, &pass) in wall.iter().enumerate() {
+            if !self.finish_wall(&mut ground, pass, height)? {
+                self.pass(&mut ground, pass, &wall[i + 1..], height)?;
+            }
+        }
         Ok(rough.len() * heights.len() + wall.len())
     }
 
     /// Ends the path; answers what could not be done as asked.
-    pub fn finish(&mut self) -> Option<Warning> {
+    pub fn finish(&mut self) -> Vec<Warning> {
         self.cutter.leave();
-        let (ramps, plunges, at) = self.fallbacks.take()?;
-        Some(Warning::EntryFallback { asked: self.job.entry, ramps, plunges, at })
+        let entries = self.fallbacks.take().map(|(ramps, plunges, at)| Warning::EntryFallback {
+            asked: self.job.entry,
+            ramps,
+            plunges,
+            at,
+        });
+        entries.into_iter().chain(self.short_leads()).collect()
     }
 
     /// Which passes wait for roughing to reach the floor and then take the finishing stock off the
@@ -196,7 +215,7 @@ impl<'a> Planner<'a> {
     }
 
     /// Once more along a wall, as often as asked: round, or back and forth.
-    fn spring(&mut self, mut course: Course) -> Result<(), Error> {
+    pub fn spring(&mut self, mut course: Course) -> Result<(), Error> {
         for _ in 0..self.job.spring {
             self.afford(course.elements.len() as u64)?;
             if !course.closed {
@@ -217,7 +236,7 @@ impl<'a> Planner<'a> {
 
     /// Loops of a level run with the inner side on the left: climb, as long as the uncut stock is
     /// outside, as it is for wall passes and for all passes from the inside out.
-    fn is_backwards(&self, ground: &Ground, pass: usize) -> bool {
+    pub fn is_backwards(&self, ground: &Ground, pass: usize) -> bool {
         let walls = if self.job.finish > 0.0 { 2 } else { 1 };
         let inward = self.job.start == Start::Outside && ground.nest.passes[pass].level >= walls;
         inward != (self.job.direction == Direction::Conventional)

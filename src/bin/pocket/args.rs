@@ -86,6 +86,12 @@ pub struct Args {
     #[arg(long, value_name = "LENGTH", value_parser = at_least_0, help_heading = "Tool and passes")]
     pub finish: Option<Length>,
 
+    /// Radius of the arcs onto finishing passes and off them [default: half the tool]
+    ///
+    /// Less where there is less room, and at least as wide as --finish; 0 for none.
+    #[arg(long, value_name = "LENGTH", value_parser = at_least_0, help_heading = "Tool and passes")]
+    pub lead: Option<Length>,
+
     /// Run the wall passes at the floor this often once more
     #[arg(long, value_name = "N", default_value_t = 0, help_heading = "Tool and passes")]
     pub spring: u32,

@@ -41,6 +41,7 @@ impl Args {
             stock: or(self.stock, defaults.stock),
             floor_stock: or(self.floor_stock, defaults.floor_stock),
             finish: or(self.finish, defaults.finish),
+            lead: self.lead.map(|l| l.to(units)),
             spring: self.spring,
             direction: match self.direction {
                 DirectionArg::Climb => Direction::Climb,
