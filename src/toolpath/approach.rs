@@ -53,7 +53,8 @@ impl Planner<'_> {
         }
         self.cutter.over(link.start, height.z);
         self.cutter.plunge(height.z);
-        self.cutter.cut(&link);
+        self.amounts.full_width_length += link.length();
+        self.cut_link(&link);
         Ok(begun)
     }
 
@@ -84,7 +85,7 @@ impl Planner<'_> {
         if !links.iter().all(clear) || self.afford(links.len() as u64).is_err() {
             return None;
         }
-        links.iter().for_each(|link| self.cutter.cut(link));
+        links.iter().for_each(|link| self.cut_link(link));
         Some(begun)
     }
 

@@ -56,12 +56,14 @@ impl Planner<'_> {
         self.cutter.over(begun.start, height.surface);
         self.cutter.plunge(height.surface);
         let mut at = [begun.start, opposite];
+        let before = self.cutter.totals.cut_length;
         for i in 1..=halves as u64 {
             let z = height.surface + (height.z - height.surface) * (i as f64 / halves);
             let z = if i as f64 == halves { height.z } else { z };
             self.cutter.follow(&Element::arc(at[0], at[1], sense), z, rate);
             at.reverse();
         }
+        self.entered(self.cutter.totals.cut_length - before);
         Ok(begun)
     }
 
@@ -72,6 +74,7 @@ impl Planner<'_> {
             self.fell_back(Entry::Plunge, course.start);
             self.cutter.over(course.start, height.surface);
             self.cutter.plunge(height.z);
+            self.entered(height.surface - height.z);
             return Ok(course);
         }
         self.fell_back(Entry::Ramp, course.start);
@@ -84,12 +87,20 @@ impl Planner<'_> {
         self.cutter.plunge(height.surface);
         let whole: f64 = ramp.iter().map(Element::length).sum();
         let mut gone = 0.0;
+        let before = self.cutter.totals.cut_length;
         for (i, e) in ramp.iter().enumerate() {
             gone += e.length();
             let z = height.surface + (height.z - height.surface) * (gone / whole).min(1.0);
             self.cutter.follow(e, if i + 1 == ramp.len() { height.z } else { z }, rate);
         }
+        self.entered(self.cutter.totals.cut_length - before);
         Ok(course)
+    }
+
+    /// Counts a way down into stock.
+    fn entered(&mut self, length: f64) {
+        self.amounts.entry_length += length;
+        self.amounts.full_width_length += length;
     }
 
     fn fell_back(&mut self, to: Entry, place: Point) {

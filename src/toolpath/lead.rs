@@ -70,11 +70,11 @@ impl Planner<'_> {
         self.afford(lead.begun.elements.len() as u64)?;
         let onto = lead.arc(true);
         self.come_to(ground, pass, onto.start, height);
-        self.cutter.cut(&onto);
+        self.cut_link(&onto);
         self.run(ground, pass, &lead.begun)?;
         let off = lead.arc(false);
         self.spring(lead.begun)?;
-        self.cutter.cut(&off);
+        self.cut_link(&off);
         ground.done[pass] = true;
         ground.last = None;
         Ok(true)
@@ -90,7 +90,7 @@ impl Planner<'_> {
             let link = Element::segment(here, place);
             let is_faster = link.length() <= self.cutter.minutes_over(place, height.z) * self.job.feed;
             if is_faster && (ground.is_clear)(&link, room) {
-                self.cutter.cut(&link);
+                self.cut_link(&link);
                 return;
             }
         }
@@ -98,7 +98,7 @@ impl Planner<'_> {
         if let Some(link) = down.filter(|link| (ground.is_clear)(link, room)) {
             self.cutter.over(link.start, height.z);
             self.cutter.plunge(height.z);
-            self.cutter.cut(&link);
+            self.cut_link(&link);
         } else {
             self.cutter.over(place, height.surface);
             self.cutter.plunge(height.z);

@@ -15,6 +15,7 @@ use super::indexed::Indexed;
 use super::lead::ShortLeads;
 use super::nest::{Nest, Pass, index};
 use super::roads::Roads;
+use super::width::Widths;
 use super::{Direction, Job, Start, Warning};
 use crate::error::Error;
 use crate::geom::{ArcSpline, Bounds, Element, Point};
@@ -36,21 +37,30 @@ pub(super) type IsClear<'a> = dyn Fn(&Element, f64) -> bool + 'a;
 pub(super) struct Planner<'a> {
     pub job: &'a Job,
     pub cutter: Cutter<'a>,
-    /// What was run along the axis so far.
-    pub crests: Crests,
+    /// What was cut so far but passes.
+    pub amounts: Amounts,
     /// Ramps and plunges that stand for another kind of entry, and the first of these plunges.
     pub fallbacks: Option<(usize, usize, Option<Point>)>,
     /// Leads that had less room than asked.
     pub leads: ShortLeads,
 }
 
-/// Excursions along the axis, for what stands between passes.
+/// What is cut besides passes, at all heights, and how wide.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Crests {
-    /// How many, at all heights.
-    pub count: usize,
+pub(super) struct Amounts {
+    /// Excursions along the axis, for what stands between passes.
+    pub crests: usize,
     /// Their length, the ways there and back included.
-    pub length: f64,
+    pub crest_length: f64,
+    /// Length of the ways down into stock.
+    pub entry_length: f64,
+    /// Length of links at depth and of leads.
+    pub link_length: f64,
+    /// Length of what is cut as wide as the tool is.
+    pub full_width_length: f64,
+    /// Largest distance between neighboring passes, and where.
+    pub largest_step: f64,
+    pub largest_step_at: Option<Point>,
 }
 
 /// What is known of the pocket at hand.
@@ -86,7 +96,7 @@ impl<'a> Planner<'a> {
         Planner {
             job,
             cutter: Cutter::new(job),
-            crests: Crests::default(),
+            amounts: Amounts::default(),
             fallbacks: None,
             leads: ShortLeads::default(),
         }
@@ -132,7 +142,8 @@ impl<'a> Planner<'a> {
             ground.plan_beginnings(&rough);
             ground.plan_beginnings(&wall);
         }
-        ground.settle_crests(rough.iter().chain(&wall));
+        let rank = ground.settle_crests(rough.iter().chain(&wall));
+        self.widths(&ground, &rough, &wall, &rank);
         let heights = self.job.heights();
         let mut surface = self.job.top;
         for &z in &heights {
@@ -181,6 +192,19 @@ impl<'a> Planner<'a> {
     fn crests(&self, roads: &Roads, levels: &[Level], nest: &Nest, slack: f64) -> Vec<Crest> {
         let (tool_radius, flat) = (self.job.radius(), self.job.overlap());
         Crest::all(roads, &Reach { levels, nest, tool_radius, flat, slack })
+    }
+
+    /// How wide the passes cut, at all heights.
+    fn widths(&mut self, ground: &Ground, rough: &[usize], wall: &[usize], rank: &[usize]) {
+        let Some(roads) = &ground.roads else { return };
+        let Ground { levels, nest, slack, .. } = ground;
+        let (tool_radius, flat) = (self.job.radius(), self.job.overlap());
+        let reach = Reach { levels, nest, tool_radius, flat, slack: *slack };
+        let widths = Widths::new(self.job, roads, &reach, rank);
+        let full = |order: &[usize]| order.iter().map(|&pass| widths.full[pass]).sum::<f64>();
+        let heights = self.job.heights().len() as f64;
+        self.amounts.full_width_length += heights * full(rough) + full(wall);
+        (self.amounts.largest_step, self.amounts.largest_step_at) = (widths.largest_step, widths.at);
     }
 
     fn passes(&mut self, ground: &mut Ground, order: &[usize], height: Height) -> Result<(), Error> {
@@ -252,10 +276,18 @@ impl<'a> Planner<'a> {
             let begun = course.clone().begun_at(course.nearest(place), ground.slack);
             let link = Element::segment(here, begun.start);
             self.may_link(ground, &link, pass, last).then(|| {
-                self.cutter.cut(&link);
+                // Straight across into what the next pass is to cut.
+                self.amounts.full_width_length += link.length();
+                self.cut_link(&link);
                 begun
             })
         })
+    }
+
+    /// Along a link, which is counted.
+    pub fn cut_link(&mut self, link: &Element) {
+        self.amounts.link_length += link.length();
+        self.cutter.cut(link);
     }
 
     pub fn may_link(&self, ground: &Ground, link: &Element, a: usize, b: usize) -> bool {
@@ -266,13 +298,11 @@ impl<'a> Planner<'a> {
 
 impl Ground<'_> {
     pub fn spline(&self, pass: usize) -> &ArcSpline {
-        let Pass { level, index } = self.nest.passes[pass];
-        let level = &self.levels[level];
-        level.loops.get(index).unwrap_or_else(|| &level.ridges[index - level.loops.len()])
+        self.nest.spline(self.levels, pass)
     }
 
-    /// Each crest is cut with the last of the passes on its sides.
-    fn settle_crests<'a>(&mut self, order: impl Iterator<Item = &'a usize>) {
+    /// Each crest is cut with the last of the passes on its sides. Answers which pass comes when.
+    fn settle_crests<'a>(&mut self, order: impl Iterator<Item = &'a usize>) -> Vec<usize> {
         let mut rank = vec![0; self.nest.passes.len()];
         for (i, &pass) in order.enumerate() {
             rank[pass] = i;
@@ -283,6 +313,7 @@ impl Ground<'_> {
                 self.crests_of[gate.pass].push(i);
             }
         }
+        rank
     }
 
     /// Whether a pass is a single place with a loop round it: all that the tool cuts there is within
