@@ -78,7 +78,7 @@ fn an_entry_is_as_long_as_its_slope_and_counts_as_full_width() {
     let path = path(&rectangle(), &job());
     let own = &path.pockets[0];
     let least = 2.0 / 3f64.to_radians().sin();
-    assert!(own.entry_length >= least && own.entry_length < 2.0 * least, "{}", own.entry_length);
+    assert!((own.entry_length / least - 1.0).abs() < 1e-9, "{}", own.entry_length);
     assert!((own.link_length - 2.0 * 7.0 * 2.4).abs() < 1e-9);
     assert!(own.full_width_length > own.entry_length + own.link_length);
 }

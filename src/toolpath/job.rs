@@ -84,6 +84,9 @@ pub struct Job {
     pub start: Start,
     /// How the tool gets down.
     pub entry: Entry,
+    /// Whether links may cut through stock as wide as the tool, where nothing beside a pass is cut yet:
+    /// through a neck instead of over it.
+    pub slot: bool,
     /// Slope of ramps, in degrees.
     pub ramp_angle: f64,
     /// Feed rate of cuts.
@@ -119,6 +122,7 @@ impl Job {
             strategy: Strategy::Offset,
             start: Start::Inside,
             entry: Entry::Helix,
+            slot: false,
             ramp_angle: 3.0,
             feed,
             plunge_feed,

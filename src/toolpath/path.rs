@@ -52,6 +52,10 @@ pub struct PocketPath {
     pub entry_length: f64,
     /// Length of links at depth, and of leads onto finishing passes and off them.
     pub link_length: f64,
+    /// Links through stock instead of retracts, at all heights.
+    pub slots: usize,
+    /// Length of their parts that cut stock, as wide as the tool.
+    pub slot_length: f64,
     /// Length of cuts as wide as the tool: entries, first passes, the first side of narrow parts, and
     /// straight links. Measured on the axis, rather too long than too short.
     pub full_width_length: f64,
@@ -80,6 +84,7 @@ impl PocketPath {
     fn take(&mut self, amounts: &Amounts) {
         (self.crests, self.crest_length) = (amounts.crests, amounts.crest_length);
         (self.entry_length, self.link_length) = (amounts.entry_length, amounts.link_length);
+        (self.slots, self.slot_length) = (amounts.slots, amounts.slot_length);
         self.full_width_length = amounts.full_width_length;
         (self.largest_step, self.largest_step_at) = (amounts.largest_step, amounts.largest_step_at);
     }

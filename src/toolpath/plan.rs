@@ -3,7 +3,7 @@
 //! **Needs** the levels of a pocket, a judge of straight links, and the axis if links shall follow it.
 //! **Guarantees** that rapids run at the clearance or straight down into a place already cut that
 //! deep; that a link at depth joins neighbors and is as long as their distance, or follows the axis
-//! (`detour`) in less time than lifting the tool would take; that it stays clear of the wall by the
+//! (`detour`) in not much more time than lifting the tool would take; that it stays clear of the wall by the
 //! tool radius and the stock; that a ramped stretch is cut again at depth.
 //! **Does not** shorten the way between pockets or between branches of a pocket.
 
@@ -56,6 +56,9 @@ pub(super) struct Amounts {
     pub entry_length: f64,
     /// Length of links at depth and of leads.
     pub link_length: f64,
+    /// Links through stock, and the length of that.
+    pub slots: usize,
+    pub slot_length: f64,
     /// Length of what is cut as wide as the tool is.
     pub full_width_length: f64,
     /// Largest distance between neighboring passes, and where.

@@ -112,6 +112,10 @@ pub struct Args {
     #[arg(long, value_enum, default_value_t, help_heading = "Machine")]
     pub entry: EntryArg,
 
+    /// Cut through a neck as wide as the tool instead of lifting the tool over it
+    #[arg(long, help_heading = "Machine")]
+    pub slot: bool,
+
     /// Slope of ramps
     #[arg(long, value_name = "DEGREES", value_parser = slope, default_value = "3", help_heading = "Machine")]
     pub ramp_angle: f64,

@@ -42,6 +42,8 @@ struct PocketReport<'a> {
     full_width_length: f64,
     entry_length: f64,
     link_length: f64,
+    slots: usize,
+    slot_length: f64,
     most_retracts: usize,
     path: Totals,
     machined: bool,
@@ -65,6 +67,8 @@ impl<'a> PocketReport<'a> {
             full_width_length: path.full_width_length,
             entry_length: path.entry_length,
             link_length: path.link_length,
+            slots: path.slots,
+            slot_length: path.slot_length,
             most_retracts: path.most_retracts,
             path: path.totals,
             machined: path.machined,
@@ -87,6 +91,10 @@ impl PocketReport<'_> {
             counted(retracts, "retract", "retracts"),
             self.most_retracts,
         );
+        if self.slots > 0 {
+            let slots = counted(self.slots, "slot", "slots");
+            text += &format!("  {slots} through stock, {:.1} {unit} long\n", self.slot_length);
+        }
         if let Some(rest) = self.unreachable.first() {
             let places = counted(self.unreachable.len(), "place", "places");
             text += &format!("  rest in {places}, up to {:.4} {unit} high at {}\n", rest.height, rest.at);

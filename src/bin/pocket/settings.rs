@@ -59,6 +59,7 @@ impl Args {
                 EntryArg::Ramp => Entry::Ramp,
                 EntryArg::Plunge => Entry::Plunge,
             },
+            slot: self.slot,
             ramp_angle: self.ramp_angle,
             feed: or(self.feed, defaults.feed),
             plunge_feed: or(self.plunge_feed, defaults.plunge_feed),
