@@ -87,6 +87,18 @@ fn a_corridor_that_is_not_cut_yet_is_no_way() {
 }
 
 #[test]
+fn with_slots_a_corridor_is_cut_through_and_that_is_told() {
+    let (pocket, plain) = (chambers(3.2), job(Start::Inside));
+    let slotted = Job { slot: true, feed: 1e9, ..plain.clone() };
+    let path = path(&pocket, &slotted);
+    keeps_its_distance(&pocket, &plain, &path);
+    assert_eq!(path.totals.retracts, 1);
+    let own = &path.pockets[0];
+    assert!(own.slots == 1 && (40.0..120.0).contains(&own.slot_length), "{}", own.slot_length);
+    assert!(own.full_width_length > own.slot_length);
+}
+
+#[test]
 fn no_link_leads_through_a_neck_narrower_than_the_tool() {
     for start in [Start::Inside, Start::Outside] {
         for half in [1.0, 1.499_999] {

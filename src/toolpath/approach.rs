@@ -1,10 +1,11 @@
 //! The way to a pass that no straight link leads to.
 //!
-//! Along the axis at depth, if that takes less time; else up, across, and down into a neighbor that is
+//! Along the axis at depth, if that does not take much more time, and through stock where a slot is
+//! asked for and nothing beside the pass is cut; else up, across, and down into a neighbor that is
 //! cut already and straight over from there; else down into full stock.
 
 use super::course::Course;
-use super::detour::Wish;
+use super::detour::{Way, Wish};
 use super::plan::{Ground, Height, Planner};
 use crate::error::Error;
 use crate::geom::{Element, Point};
@@ -12,6 +13,10 @@ use crate::geom::{Element, Point};
 /// Farthest that a link along the axis may leave it, in tool radii: nothing is shaped by such a link,
 /// and its distance to the wall is judged for itself.
 const LINK_FLATNESS: f64 = 1.0 / 64.0;
+
+/// How many times longer than lifting the tool a link at depth may take: each time that the tool gets
+/// down it leaves a mark, and machines lift more slowly than they say.
+const STAY_DOWN: f64 = 2.0;
 
 /// A way down beside a pass, into a neighbor that is cut already, and straight over from there.
 struct Approach {
@@ -39,37 +44,53 @@ impl Planner<'_> {
         course: Course,
         height: Height,
     ) -> Result<Course, Error> {
-        let Some(Approach { link, begun }) = self.door(ground, pass, &course) else {
-            let planned = ground.begin[pass];
-            let place = planned.or_else(|| ground.toward(pass, rest.first().copied()));
-            let place = course.nearest(place.unwrap_or_else(|| course.calm_place()));
-            return self.enter(ground, course, (place, planned.is_some()), height);
+        let planned = ground.begin[pass];
+        let place = planned.or_else(|| ground.toward(pass, rest.first().copied()));
+        let place = course.nearest(place.unwrap_or_else(|| course.calm_place()));
+        let door = self.door(ground, pass, &course);
+        let as_long = |p: Point, surface: f64| self.cutter.minutes_over(p, surface) * self.job.feed;
+        let lift = self.cutter.at().map_or(0.0, |here| as_long(here, height.z));
+        let length = match &door {
+            Some(Approach { link, .. }) => as_long(link.start, height.z) + link.length(),
+            None => as_long(place.point, height.surface) + self.minutes_down(height) * self.job.feed,
         };
-        let as_long = |p: Point| self.cutter.minutes_over(p, height.z) * self.job.feed;
-        let lift = self.cutter.at().map_or(0.0, as_long);
-        let limits = Limits { length: as_long(link.start) + link.length(), lift };
-        if let Some(detoured) = self.detour(ground, (pass, rest), course, limits) {
+        let limits = Limits { length: STAY_DOWN * length, lift };
+        if let Some(detoured) = self.detour(ground, (pass, rest), &course, limits, false) {
             return Ok(detoured);
         }
+        if door.is_none()
+            && self.job.slot
+            && let Some(detoured) = self.detour(ground, (pass, rest), &course, limits, true)
+        {
+            return Ok(detoured);
+        }
+        let Some(Approach { link, begun }) = door else {
+            return self.enter(ground, course, (place, planned.is_some()), height);
+        };
         self.cutter.over(link.start, height.z);
         self.cutter.plunge(height.z);
-        self.cutter.cut(&link);
+        self.amounts.full_width_length += link.length();
+        self.cut_link(&link);
         Ok(begun)
     }
 
-    /// Along the axis to the pass, if that takes less time than the way over.
+    /// Along the axis to the pass, if that takes not much more time than the way over; through stock, if
+    /// it may be a slot.
     fn detour(
         &mut self,
         ground: &mut Ground,
         (pass, rest): (usize, &[usize]),
-        course: Course,
+        course: &Course,
         limits: Limits,
+        is_slot: bool,
     ) -> Option<Course> {
         let flat = LINK_FLATNESS * self.job.radius();
-        let places = ground.detour(self.cutter.at()?, pass, limits.length, flat)?;
+        let slot = is_slot.then_some(usize::from(self.job.finish > 0.0));
+        let Way { places, slot_length } =
+            ground.detour(self.cutter.at()?, pass, (limits.length, flat), slot)?;
         let end = *places.last()?;
         let begun = course.nearest(end);
-        let begun = course.begun_at(begun, ground.slack);
+        let begun = course.clone().begun_at(begun, ground.slack);
         if begun.start.distance(end) > ground.slack {
             return None;
         }
@@ -84,7 +105,12 @@ impl Planner<'_> {
         if !links.iter().all(clear) || self.afford(links.len() as u64).is_err() {
             return None;
         }
-        links.iter().for_each(|link| self.cutter.cut(link));
+        if slot_length > 0.0 {
+            self.amounts.slots += 1;
+            self.amounts.slot_length += slot_length;
+            self.amounts.full_width_length += slot_length;
+        }
+        links.iter().for_each(|link| self.cut_link(link));
         Some(begun)
     }
 
@@ -110,11 +136,17 @@ impl Planner<'_> {
 }
 
 impl Ground<'_> {
-    /// The places of a link along the axis from the end of the last pass to another one.
-    fn detour(&mut self, from: Point, to: usize, shorter_than: f64, flat: f64) -> Option<Vec<Point>> {
+    /// A link along the axis from the end of the last pass to another one.
+    fn detour(
+        &mut self,
+        from: Point,
+        to: usize,
+        (shorter_than, flat): (f64, f64),
+        slot: Option<usize>,
+    ) -> Option<Way> {
         let (nest, done, last) = (&self.nest, &self.done[..], self.last?);
         let roads = self.roads.as_ref()?;
-        self.detours.as_mut()?.find(roads, &Wish { nest, done, from, last, to, shorter_than, flat })
+        self.detours.as_mut()?.find(roads, &Wish { nest, done, from, last, to, shorter_than, flat, slot })
     }
 
     /// How much longer than the step, in all, the links of the chain inward from a pass become when it

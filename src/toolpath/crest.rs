@@ -139,6 +139,14 @@ impl Crest {
 }
 
 impl Reach<'_> {
+    /// The parts of edges between each level and the next, beside which that level has no neighbor
+    /// inside: the level, the edge, and the parameters where they begin and end.
+    pub fn between_levels(&self, roads: &Roads) -> Vec<(usize, u32, [f64; 2])> {
+        let whole = Reach { tool_radius: 0.0, ..*self };
+        let parts = (0..roads.edge_count()).flat_map(|edge| whole.bands(roads, edge));
+        parts.map(|part| (part.level, part.edge, part.t)).collect()
+    }
+
     /// The level inside of level `k`; beyond everything for the last.
     fn top(&self, k: usize) -> f64 {
         self.levels.get(k + 1).map_or(f64::INFINITY, |l| l.distance)
@@ -158,18 +166,20 @@ impl Reach<'_> {
     fn parts(&self, roads: &Roads) -> Vec<Part> {
         let mut parts = Vec::new();
         for edge in 0..roads.edge_count() {
-            let radii = roads.radii(edge);
-            let [low, high] = [radii[0].min(radii[1]), radii[0].max(radii[1])];
-            for level in self.first_level(low)..self.levels.len() {
-                if self.levels[level].distance + self.tool_radius + self.slack >= high {
-                    break;
-                }
-                parts.extend(self.part(roads, edge, level));
-            }
+            parts.extend(self.bands(roads, edge));
         }
         parts.sort_by_key(|p| p.level);
         self.find_leaves(&mut parts);
         parts.into_iter().filter_map(|part| self.trimmed(roads, part)).collect()
+    }
+
+    /// The parts of one edge.
+    fn bands(&self, roads: &Roads, edge: u32) -> Vec<Part> {
+        let radii = roads.radii(edge);
+        let [low, high] = [radii[0].min(radii[1]), radii[0].max(radii[1])];
+        let levels = self.first_level(low)..self.levels.len();
+        let below = |&k: &usize| self.levels[k].distance + self.tool_radius + self.slack < high;
+        levels.take_while(below).filter_map(|level| self.part(roads, edge, level)).collect()
     }
 
     /// Where only one part ends at a vertex, the axis does: along all other edges the radius grows,

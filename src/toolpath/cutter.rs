@@ -24,6 +24,20 @@ pub struct Totals {
     pub minutes: f64,
 }
 
+impl Totals {
+    /// What came on top of earlier totals.
+    pub(super) fn since(&self, before: &Totals) -> Totals {
+        Totals {
+            cut_length: self.cut_length - before.cut_length,
+            rapid_length: self.rapid_length - before.rapid_length,
+            retracts: self.retracts - before.retracts,
+            arcs: self.arcs - before.arcs,
+            lines: self.lines - before.lines,
+            minutes: self.minutes - before.minutes,
+        }
+    }
+}
+
 /// Minutes of a rapid, which starts and stops, as the estimate of time assumes: at most 5000 mm (200
 /// inch) per minute and 500 mm/s2 (20 in/s2), a light machine. The decision between a link and a way
 /// over depends on it.
@@ -57,6 +71,11 @@ impl<'a> Cutter<'a> {
     /// Where the tool is in the drawing, once it has moved.
     pub fn at(&self) -> Option<Point> {
         self.at.map(Point3::xy)
+    }
+
+    /// The height at which the tool is, once it has moved.
+    pub fn height(&self) -> Option<f64> {
+        self.at.map(|at| at.z)
     }
 
     /// Height of rapids across.

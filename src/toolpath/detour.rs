@@ -13,6 +13,7 @@
 //! cut: then every place of it is no farther than the step from that pass, on the side away from the
 //! wall, and what the tool meets on the other side is no wider. As the radius is monotone along an
 //! edge, the places at one level on the spokes of one side of it lie all on one pass: one look decides.
+//! Where a slot is wished for, the link may lead through stock as well.
 
 use super::indexed::Indexed;
 use super::nest::Nest;
@@ -47,6 +48,16 @@ pub(super) struct Wish<'a> {
     pub shorter_than: f64,
     /// Farthest that a chord may leave the axis.
     pub flat: f64,
+    /// Whether stock may be cut on the way, and if so, along which level farthest outward.
+    pub slot: Option<usize>,
+}
+
+/// A way that was found.
+pub(super) struct Way {
+    /// Its places, beginning where it is asked from.
+    pub places: Vec<Point>,
+    /// How much of it leads through stock.
+    pub slot_length: f64,
 }
 
 /// A link that was found.
@@ -73,8 +84,8 @@ impl<'a> Detours<'a> {
         Detours { levels, slack, index, beside: HashMap::new() }
     }
 
-    /// The places of the shortest link, beginning where it is asked from.
-    pub fn find(&mut self, roads: &Roads, wish: &Wish) -> Option<Vec<Point>> {
+    /// The shortest link.
+    pub fn find(&mut self, roads: &Roads, wish: &Wish) -> Option<Way> {
         let (spot, side) = roads.foot(wish.from)?;
         let center = roads.place(spot);
         let radius = roads.radius(spot);
@@ -175,8 +186,9 @@ impl<'a> Detours<'a> {
             return;
         }
         // Up to the level below: the pass itself is not cut yet.
-        let open = low + self.slack >= self.levels[0].distance
-            && (self.level_of(low)..level).all(|k| self.is_open_stretch(roads, wish, edge, k));
+        let open = low + self.slack >= self.levels[wish.slot.unwrap_or(0)].distance
+            && (wish.slot.is_some()
+                || (self.level_of(low)..level).all(|k| self.is_open_stretch(roads, wish, edge, k)));
         if !open {
             return;
         }
@@ -192,13 +204,13 @@ impl<'a> Detours<'a> {
 
     /// The whole link: back over the vertices, then forward.
     fn drawn(
-        &self,
+        &mut self,
         roads: &Roads,
         wish: &Wish,
         spot: Spot,
         steps: &HashMap<u32, Step>,
         found: Found,
-    ) -> Vec<Point> {
+    ) -> Way {
         let mut route = Vec::new();
         let mut at = found.leaves;
         while let Some(vertex) = at {
@@ -206,14 +218,18 @@ impl<'a> Detours<'a> {
             route.push((vertex, before.map(|(_, edge)| edge)));
             at = before.map(|(v, _)| v);
         }
-        let mut places = vec![wish.from, roads.place(spot)];
+        let (mut places, mut slot_length) = (vec![wish.from, roads.place(spot)], 0.0);
         for (vertex, edge) in route.into_iter().rev() {
             let end = |edge: u32| usize::from(roads.ends(edge)[1] == vertex) as f64;
             let (edge, from) = edge.map_or((spot.edge, spot.t), |e| (e, 1.0 - end(e)));
-            places.extend(roads.chords(edge, from, end(edge), wish.flat));
+            let chords = roads.chords(edge, from, end(edge), wish.flat);
+            if wish.slot.is_some() && !self.is_cut(roads, wish, edge, roads.radii(edge)) {
+                slot_length += measure(roads.place(Spot { edge, t: from }), &chords);
+            }
+            places.extend(chords);
         }
         places.extend(found.end);
-        places
+        Way { places, slot_length }
     }
 
     /// Whether the spoke on a side of an edge is cut from the axis, where its radius is known, down to
@@ -232,6 +248,14 @@ impl<'a> Detours<'a> {
 
     /// Whether an edge may be driven between two radii on it.
     fn is_open(&mut self, roads: &Roads, wish: &Wish, edge: u32, radii: [f64; 2]) -> bool {
+        match wish.slot {
+            Some(outermost) => radii[0].min(radii[1]) + self.slack >= self.levels[outermost].distance,
+            None => self.is_cut(roads, wish, edge, radii),
+        }
+    }
+
+    /// Whether it is cut between two radii, beside a pass on one side of it.
+    fn is_cut(&mut self, roads: &Roads, wish: &Wish, edge: u32, radii: [f64; 2]) -> bool {
         let (low, high) = (radii[0].min(radii[1]), radii[0].max(radii[1]));
         low + self.slack >= self.levels[0].distance
             && (self.level_of(low)..=self.level_of(high)).all(|k| self.is_open_stretch(roads, wish, edge, k))

@@ -2,7 +2,8 @@
 //!
 //! A **helix** runs on the circle that touches the pass from inside where the pass begins: it ends
 //! there in the direction of the pass. It stays as far from the wall as the tool must, and its radius is
-//! at most 0.45 of the tool, so that no core is left standing in it. It goes round in whole turns, no steeper than asked:
+//! at most 0.45 of the tool, so that no core is left standing in it. It goes round in whole turns, no steeper than asked,
+//! and as narrow as that they are no longer than need be:
 //! so it begins, too, where the pass does, and at every height but the first that place is cut already.
 
 use super::course::{Course, Place};
@@ -25,6 +26,16 @@ struct Helix {
     radius: f64,
 }
 
+impl Helix {
+    /// As narrow, down to half of it, that whole turns are no longer than the run; and their number.
+    fn fitted(self, run: f64, narrowest: f64) -> (Helix, f64) {
+        let turns = (run / (2.0 * PI * self.radius)).ceil().max(1.0);
+        let radius = (run / (2.0 * PI * turns)).max(0.5 * self.radius).max(narrowest).min(self.radius);
+        let center = self.begun.start + (self.center - self.begun.start) * (radius / self.radius);
+        (Helix { center, radius, ..self }, turns)
+    }
+}
+
 impl Planner<'_> {
     /// Down into full stock and onto a pass, if possible at a place of it; at that place if it was
     /// planned, as links depend on it.
@@ -44,10 +55,10 @@ impl Planner<'_> {
     }
 
     fn helix(&mut self, helix: Helix, height: Height) -> Result<Course, Error> {
-        let Helix { begun, center, radius } = helix;
         let slope = self.job.ramp_angle.to_radians();
         let run = (height.surface - height.z) / slope.tan();
-        let halves = 2.0 * (run / (2.0 * PI * radius)).ceil().max(1.0);
+        let (Helix { begun, center, .. }, turns) = helix.fitted(run, NARROWEST * self.job.tool);
+        let halves = 2.0 * turns;
         self.afford(halves as u64)?;
         let ahead = begun.elements.first().map_or(Vector::default(), |e| e.normals().0);
         let sense = (center - begun.start).dot(ahead).signum();
@@ -56,12 +67,14 @@ impl Planner<'_> {
         self.cutter.over(begun.start, height.surface);
         self.cutter.plunge(height.surface);
         let mut at = [begun.start, opposite];
+        let before = self.cutter.totals.cut_length;
         for i in 1..=halves as u64 {
             let z = height.surface + (height.z - height.surface) * (i as f64 / halves);
             let z = if i as f64 == halves { height.z } else { z };
             self.cutter.follow(&Element::arc(at[0], at[1], sense), z, rate);
             at.reverse();
         }
+        self.entered(self.cutter.totals.cut_length - before);
         Ok(begun)
     }
 
@@ -72,6 +85,7 @@ impl Planner<'_> {
             self.fell_back(Entry::Plunge, course.start);
             self.cutter.over(course.start, height.surface);
             self.cutter.plunge(height.z);
+            self.entered(height.surface - height.z);
             return Ok(course);
         }
         self.fell_back(Entry::Ramp, course.start);
@@ -84,12 +98,30 @@ impl Planner<'_> {
         self.cutter.plunge(height.surface);
         let whole: f64 = ramp.iter().map(Element::length).sum();
         let mut gone = 0.0;
+        let before = self.cutter.totals.cut_length;
         for (i, e) in ramp.iter().enumerate() {
             gone += e.length();
             let z = height.surface + (height.z - height.surface) * (gone / whole).min(1.0);
             self.cutter.follow(e, if i + 1 == ramp.len() { height.z } else { z }, rate);
         }
+        self.entered(self.cutter.totals.cut_length - before);
         Ok(course)
+    }
+
+    /// Minutes that the way down into stock takes at least.
+    pub fn minutes_down(&self, height: Height) -> f64 {
+        let depth = height.surface - height.z;
+        if self.job.entry == Entry::Plunge {
+            return depth / self.job.plunge_feed;
+        }
+        let slope = self.job.ramp_angle.to_radians().sin();
+        depth / slope / self.job.feed.min(self.job.plunge_feed / slope)
+    }
+
+    /// Counts a way down into stock.
+    fn entered(&mut self, length: f64) {
+        self.amounts.entry_length += length;
+        self.amounts.full_width_length += length;
     }
 
     fn fell_back(&mut self, to: Entry, place: Point) {

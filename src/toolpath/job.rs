@@ -73,6 +73,9 @@ pub struct Job {
     pub finish: f64,
     /// How often the wall passes are run once more at the floor, where the tool was bent away.
     pub spring: u32,
+    /// Radius of the arcs onto finishing passes and off them; the tool's radius when not given, none
+    /// when 0.
+    pub lead: Option<f64>,
     /// On which side the uncut stock lies.
     pub direction: Direction,
     /// The pattern of the passes.
@@ -81,6 +84,9 @@ pub struct Job {
     pub start: Start,
     /// How the tool gets down.
     pub entry: Entry,
+    /// Whether links may cut through stock as wide as the tool, where nothing beside a pass is cut yet:
+    /// through a neck instead of over it.
+    pub slot: bool,
     /// Slope of ramps, in degrees.
     pub ramp_angle: f64,
     /// Feed rate of cuts.
@@ -111,10 +117,12 @@ impl Job {
             floor_stock: 0.0,
             finish: 0.0,
             spring: 0,
+            lead: None,
             direction: Direction::Climb,
             strategy: Strategy::Offset,
             start: Start::Inside,
             entry: Entry::Helix,
+            slot: false,
             ramp_angle: 3.0,
             feed,
             plunge_feed,
@@ -146,6 +154,9 @@ impl Job {
         at_least_0("finish", self.finish)?;
         let widest = if self.tool > 0.0 { self.step.min(0.5 * self.tool) } else { self.step };
         require("finish", self.finish, self.finish <= widest, "at most the step and half the tool")?;
+        if let Some(lead) = self.lead {
+            at_least_0("lead", lead)?;
+        }
         require(
             "ramp-angle",
             self.ramp_angle,
@@ -241,6 +252,7 @@ mod tests {
             assert!(refused(|j| j.step_down = Some(bad)));
             assert!(refused(|j| j.feed = bad));
             assert!(refused(|j| j.plunge_feed = bad));
+            assert!(bad == 0.0 || refused(|j| j.lead = Some(bad)));
             assert!(refused(|j| j.clearance = bad));
             assert!(refused(|j| j.ramp_angle = bad));
         }

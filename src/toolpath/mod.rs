@@ -15,6 +15,7 @@
 //! up, across, and down into a neighbor (`approach`); what has no neighbor that is cut is entered by
 //! a helix or a ramp into the stock (`entry`). What stands between levels more than the tool radius
 //! apart is cut along the axis (`crest`, `trim`), when the tool comes by for the last time (`run`).
+//! Finishing passes are met and left on arcs (`lead`).
 
 mod approach;
 mod course;
@@ -24,10 +25,12 @@ mod detour;
 mod entry;
 mod indexed;
 mod job;
+mod lead;
 mod moves;
 mod nest;
 mod path;
 mod plan;
+mod rest;
 mod roads;
 mod route;
 mod run;
@@ -36,9 +39,11 @@ mod tests;
 mod tour;
 mod trim;
 mod warning;
+mod width;
 
 pub use cutter::Totals;
 pub use job::{Direction, Entry, Job, Start, Strategy};
 pub use moves::{Move, Point3};
 pub use path::{Path, PocketPath};
+pub use rest::Rest;
 pub use warning::Warning;

@@ -11,7 +11,7 @@
 
 use super::Start;
 use super::indexed::Indexed;
-use crate::geom::Point;
+use crate::geom::{ArcSpline, Point};
 use crate::offset::Level;
 use rayon::prelude::*;
 use rstar::RTree;
@@ -75,6 +75,13 @@ impl Nest {
     /// The pass of a loop or ridge of a level.
     pub fn pass(&self, level: usize, index: usize) -> Option<usize> {
         self.passes.binary_search_by_key(&(level, index), |pass| (pass.level, pass.index)).ok()
+    }
+
+    /// The loop or ridge of a pass.
+    pub fn spline<'a>(&self, levels: &'a [Level], pass: usize) -> &'a ArcSpline {
+        let Pass { level, index } = self.passes[pass];
+        let level = &levels[level];
+        level.loops.get(index).unwrap_or_else(|| &level.ridges[index - level.loops.len()])
     }
 
     /// The passes in the order of cutting.
@@ -182,7 +189,7 @@ pub(super) fn index(level: &Level) -> RTree<Indexed> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::{ArcSpline, point};
+    use crate::geom::point;
 
     fn square(x: f64, half: f64) -> ArcSpline {
         ArcSpline::closed([

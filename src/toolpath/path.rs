@@ -2,13 +2,15 @@
 
 use super::cutter::Totals;
 use super::job::MAX_HEIGHTS;
-use super::plan::{Crests, IsClear, MAX_MOVES, Planner};
+use super::plan::{Amounts, IsClear, MAX_MOVES, Planner};
+use super::rest::{Rest, rest};
+use super::roads::Roads;
 use super::route::route;
 use super::{Job, Move, Warning};
 use crate::error::Error;
 use crate::geom::{Element, Point};
 use crate::mat::{Disk, Mat};
-use crate::offset::Level;
+use crate::offset::{Level, Part};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -46,14 +48,46 @@ pub struct PocketPath {
     pub crests: usize,
     /// Their length, the ways there and back included.
     pub crest_length: f64,
+    /// Length of helices, ramps and plunges down into the stock.
+    pub entry_length: f64,
+    /// Length of links at depth, and of leads onto finishing passes and off them.
+    pub link_length: f64,
+    /// Links through stock instead of retracts, at all heights.
+    pub slots: usize,
+    /// Length of their parts that cut stock, as wide as the tool.
+    pub slot_length: f64,
+    /// Length of cuts as wide as the tool: entries, first passes, the first side of narrow parts, and
+    /// straight links. Measured on the axis, rather too long than too short.
+    pub full_width_length: f64,
+    /// Largest distance between neighboring passes, across the axis too; at most the tool diameter.
+    pub largest_step: f64,
+    /// A place halfway between two such passes.
+    pub largest_step_at: Option<Point>,
+    /// As often as the tool needs to be lifted: at every height once for each peak of the radius that
+    /// the tool reaches, and as often for finishing passes, but once less as they begin at depth.
+    pub most_retracts: usize,
+    /// Lengths, counts and time of this pocket alone, the way to it included.
+    pub totals: Totals,
     /// Largest tool diameter that fits, less the stock to leave on both sides.
     pub largest_tool: f64,
     /// Area that the tool cannot reach, the stock to leave included.
     pub unreachable_area: f64,
+    /// The places of that area, that which reaches farthest beyond the tool first: at most a thousand.
+    pub unreachable: Vec<Rest>,
     /// Width of the narrowest neck, where there is one.
     pub narrowest_neck: Option<f64>,
     /// Whether the tool fits anywhere.
     pub machined: bool,
+}
+
+impl PocketPath {
+    fn take(&mut self, amounts: &Amounts) {
+        (self.crests, self.crest_length) = (amounts.crests, amounts.crest_length);
+        (self.entry_length, self.link_length) = (amounts.entry_length, amounts.link_length);
+        (self.slots, self.slot_length) = (amounts.slots, amounts.slot_length);
+        self.full_width_length = amounts.full_width_length;
+        (self.largest_step, self.largest_step_at) = (amounts.largest_step, amounts.largest_step_at);
+    }
 }
 
 impl Job {
@@ -102,6 +136,7 @@ impl Job {
             let mat = &mats[pocket];
             let is_clear = |link: &Element, radius: f64| mat.is_clear(link, radius);
             self.cut(&mut planner, &mut path.pockets[pocket], &levels[pocket], (&is_clear, mat))?;
+            path.pockets[pocket].most_retracts = self.most_retracts(mat, &levels[pocket]);
         }
         for (own, levels) in path.pockets.iter_mut().zip(levels) {
             own.levels = levels;
@@ -123,14 +158,31 @@ impl Job {
         levels: &[Level],
         (is_clear, mat): (&IsClear, &Mat),
     ) -> Result<(), Error> {
-        let before = planner.cutter.moves.len();
+        let (before, totals) = (planner.cutter.moves.len(), planner.cutter.totals);
         if self.tool > 0.0 && own.machined {
-            planner.crests = Crests::default();
+            planner.amounts = Amounts::default();
             own.passes = planner.pocket(levels, is_clear, Some(mat))?;
-            (own.crests, own.crest_length) = (planner.crests.count, planner.crests.length);
+            planner.cutter.leave();
+            own.take(&planner.amounts);
+            own.unreachable = rest(&Roads::new(mat), self.wall_distance(), self.overlap());
         }
+        own.totals = planner.cutter.totals.since(&totals);
         own.moves = before..planner.cutter.moves.len();
         Ok(())
+    }
+
+    /// The bound on retracts that the peaks of the axis give.
+    fn most_retracts(&self, mat: &Mat, levels: &[Level]) -> usize {
+        let tree = mat.levels();
+        let peaks = |level: &Level| {
+            // A peak within round-off of a level is a ridge of it.
+            let slack = self.overlap();
+            let reached = |p: &&Part| p.children.is_empty() && p.peak.radius >= level.distance - slack;
+            tree.parts.iter().filter(reached).count()
+        };
+        let rough = if self.finish > 0.0 && levels.len() > 1 { 1 } else { 0 };
+        let wall = if rough > 0 { peaks(&levels[0]).saturating_sub(1) } else { 0 };
+        levels.get(rough).map_or(0, |level| self.heights().len() * peaks(level) + wall)
     }
 
     fn conclude(&self, mut path: Path, mut planner: Planner) -> Result<Path, Error> {

@@ -3,7 +3,7 @@
 //! **Needs** the levels of a pocket, a judge of straight links, and the axis if links shall follow it.
 //! **Guarantees** that rapids run at the clearance or straight down into a place already cut that
 //! deep; that a link at depth joins neighbors and is as long as their distance, or follows the axis
-//! (`detour`) in less time than lifting the tool would take; that it stays clear of the wall by the
+//! (`detour`) in not much more time than lifting the tool would take; that it stays clear of the wall by the
 //! tool radius and the stock; that a ramped stretch is cut again at depth.
 //! **Does not** shorten the way between pockets or between branches of a pocket.
 
@@ -12,8 +12,10 @@ use super::crest::{Crest, Reach};
 use super::cutter::Cutter;
 use super::detour::Detours;
 use super::indexed::Indexed;
+use super::lead::ShortLeads;
 use super::nest::{Nest, Pass, index};
 use super::roads::Roads;
+use super::width::Widths;
 use super::{Direction, Job, Start, Warning};
 use crate::error::Error;
 use crate::geom::{ArcSpline, Bounds, Element, Point};
@@ -35,19 +37,33 @@ pub(super) type IsClear<'a> = dyn Fn(&Element, f64) -> bool + 'a;
 pub(super) struct Planner<'a> {
     pub job: &'a Job,
     pub cutter: Cutter<'a>,
-    /// What was run along the axis so far.
-    pub crests: Crests,
+    /// What was cut so far but passes.
+    pub amounts: Amounts,
     /// Ramps and plunges that stand for another kind of entry, and the first of these plunges.
     pub fallbacks: Option<(usize, usize, Option<Point>)>,
+    /// Leads that had less room than asked.
+    pub leads: ShortLeads,
 }
 
-/// Excursions along the axis, for what stands between passes.
+/// What is cut besides passes, at all heights, and how wide.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Crests {
-    /// How many, at all heights.
-    pub count: usize,
+pub(super) struct Amounts {
+    /// Excursions along the axis, for what stands between passes.
+    pub crests: usize,
     /// Their length, the ways there and back included.
-    pub length: f64,
+    pub crest_length: f64,
+    /// Length of the ways down into stock.
+    pub entry_length: f64,
+    /// Length of links at depth and of leads.
+    pub link_length: f64,
+    /// Links through stock, and the length of that.
+    pub slots: usize,
+    pub slot_length: f64,
+    /// Length of what is cut as wide as the tool is.
+    pub full_width_length: f64,
+    /// Largest distance between neighboring passes, and where.
+    pub largest_step: f64,
+    pub largest_step_at: Option<Point>,
 }
 
 /// What is known of the pocket at hand.
@@ -80,7 +96,13 @@ pub(super) struct Height {
 impl<'a> Planner<'a> {
     /// A planner without moves yet.
     pub fn new(job: &'a Job) -> Planner<'a> {
-        Planner { job, cutter: Cutter::new(job), crests: Crests::default(), fallbacks: None }
+        Planner {
+            job,
+            cutter: Cutter::new(job),
+            amounts: Amounts::default(),
+            fallbacks: None,
+            leads: ShortLeads::default(),
+        }
     }
 
     /// Cuts a pocket and answers the number of passes. Without its axis, links are straight.
@@ -123,7 +145,8 @@ impl<'a> Planner<'a> {
             ground.plan_beginnings(&rough);
             ground.plan_beginnings(&wall);
         }
-        ground.settle_crests(rough.iter().chain(&wall));
+        let rank = ground.settle_crests(rough.iter().chain(&wall));
+        self.widths(&ground, &rough, &wall, &rank);
         let heights = self.job.heights();
         let mut surface = self.job.top;
         for &z in &heights {
@@ -132,15 +155,25 @@ impl<'a> Planner<'a> {
             self.passes(&mut ground, &rough, Height { surface, z })?;
             surface = z;
         }
-        self.passes(&mut ground, &wall, Height { surface: self.job.top, z: surface })?;
+        let height = Height { surface: self.job.top, z: surface };
+        for (i, &pass) in wall.iter().enumerate() {
+            if !self.finish_wall(&mut ground, pass, height)? {
+                self.pass(&mut ground, pass, &wall[i + 1..], height)?;
+            }
+        }
         Ok(rough.len() * heights.len() + wall.len())
     }
 
     /// Ends the path; answers what could not be done as asked.
-    pub fn finish(&mut self) -> Option<Warning> {
+    pub fn finish(&mut self) -> Vec<Warning> {
         self.cutter.leave();
-        let (ramps, plunges, at) = self.fallbacks.take()?;
-        Some(Warning::EntryFallback { asked: self.job.entry, ramps, plunges, at })
+        let entries = self.fallbacks.take().map(|(ramps, plunges, at)| Warning::EntryFallback {
+            asked: self.job.entry,
+            ramps,
+            plunges,
+            at,
+        });
+        entries.into_iter().chain(self.short_leads()).collect()
     }
 
     /// Which passes wait for roughing to reach the floor and then take the finishing stock off the
@@ -162,6 +195,19 @@ impl<'a> Planner<'a> {
     fn crests(&self, roads: &Roads, levels: &[Level], nest: &Nest, slack: f64) -> Vec<Crest> {
         let (tool_radius, flat) = (self.job.radius(), self.job.overlap());
         Crest::all(roads, &Reach { levels, nest, tool_radius, flat, slack })
+    }
+
+    /// How wide the passes cut, at all heights.
+    fn widths(&mut self, ground: &Ground, rough: &[usize], wall: &[usize], rank: &[usize]) {
+        let Some(roads) = &ground.roads else { return };
+        let Ground { levels, nest, slack, .. } = ground;
+        let (tool_radius, flat) = (self.job.radius(), self.job.overlap());
+        let reach = Reach { levels, nest, tool_radius, flat, slack: *slack };
+        let widths = Widths::new(self.job, roads, &reach, rank);
+        let full = |order: &[usize]| order.iter().map(|&pass| widths.full[pass]).sum::<f64>();
+        let heights = self.job.heights().len() as f64;
+        self.amounts.full_width_length += heights * full(rough) + full(wall);
+        (self.amounts.largest_step, self.amounts.largest_step_at) = (widths.largest_step, widths.at);
     }
 
     fn passes(&mut self, ground: &mut Ground, order: &[usize], height: Height) -> Result<(), Error> {
@@ -196,7 +242,7 @@ impl<'a> Planner<'a> {
     }
 
     /// Once more along a wall, as often as asked: round, or back and forth.
-    fn spring(&mut self, mut course: Course) -> Result<(), Error> {
+    pub fn spring(&mut self, mut course: Course) -> Result<(), Error> {
         for _ in 0..self.job.spring {
             self.afford(course.elements.len() as u64)?;
             if !course.closed {
@@ -217,7 +263,7 @@ impl<'a> Planner<'a> {
 
     /// Loops of a level run with the inner side on the left: climb, as long as the uncut stock is
     /// outside, as it is for wall passes and for all passes from the inside out.
-    fn is_backwards(&self, ground: &Ground, pass: usize) -> bool {
+    pub fn is_backwards(&self, ground: &Ground, pass: usize) -> bool {
         let walls = if self.job.finish > 0.0 { 2 } else { 1 };
         let inward = self.job.start == Start::Outside && ground.nest.passes[pass].level >= walls;
         inward != (self.job.direction == Direction::Conventional)
@@ -233,10 +279,18 @@ impl<'a> Planner<'a> {
             let begun = course.clone().begun_at(course.nearest(place), ground.slack);
             let link = Element::segment(here, begun.start);
             self.may_link(ground, &link, pass, last).then(|| {
-                self.cutter.cut(&link);
+                // Straight across into what the next pass is to cut.
+                self.amounts.full_width_length += link.length();
+                self.cut_link(&link);
                 begun
             })
         })
+    }
+
+    /// Along a link, which is counted.
+    pub fn cut_link(&mut self, link: &Element) {
+        self.amounts.link_length += link.length();
+        self.cutter.cut(link);
     }
 
     pub fn may_link(&self, ground: &Ground, link: &Element, a: usize, b: usize) -> bool {
@@ -247,13 +301,11 @@ impl<'a> Planner<'a> {
 
 impl Ground<'_> {
     pub fn spline(&self, pass: usize) -> &ArcSpline {
-        let Pass { level, index } = self.nest.passes[pass];
-        let level = &self.levels[level];
-        level.loops.get(index).unwrap_or_else(|| &level.ridges[index - level.loops.len()])
+        self.nest.spline(self.levels, pass)
     }
 
-    /// Each crest is cut with the last of the passes on its sides.
-    fn settle_crests<'a>(&mut self, order: impl Iterator<Item = &'a usize>) {
+    /// Each crest is cut with the last of the passes on its sides. Answers which pass comes when.
+    fn settle_crests<'a>(&mut self, order: impl Iterator<Item = &'a usize>) -> Vec<usize> {
         let mut rank = vec![0; self.nest.passes.len()];
         for (i, &pass) in order.enumerate() {
             rank[pass] = i;
@@ -264,6 +316,7 @@ impl Ground<'_> {
                 self.crests_of[gate.pass].push(i);
             }
         }
+        rank
     }
 
     /// Whether a pass is a single place with a loop round it: all that the tool cuts there is within

@@ -11,6 +11,10 @@ use crate::offset::parallel_bulge;
 /// Halvings that find a place on an edge: all digits of a parameter in 0..=1.
 const HALVINGS: usize = 52;
 
+/// Round-off of a place on the axis, relative to the coordinates: vertices are solved to about this
+/// accuracy.
+const PLACE_ERROR: f64 = 16384.0 * f64::EPSILON;
+
 /// A stretch of a conic is halved this often at most; each time it is about four times flatter.
 const MAX_DEPTH: u32 = 12;
 
@@ -194,10 +198,18 @@ impl<'a> Roads<'a> {
         }
         let aside = |t: f64| (self.place(Spot { edge, t }) - p).cross(normal);
         let (start, end) = (aside(0.0), aside(1.0));
-        if start * end > 0.0 {
+        // At a joint the sign is round-off, or there is none; the ray behind the place does not count.
+        let slack = PLACE_ERROR * p.x.abs().max(p.y.abs());
+        let is_ahead = |t: f64| (self.place(Spot { edge, t }) - p).dot(normal) >= -slack;
+        let joint = [(0.0, start), (1.0, end)].into_iter().find(|&(t, a)| a.abs() <= slack && is_ahead(t));
+        let t = match joint {
+            Some((t, _)) => t,
+            None if start * end < 0.0 => bisect(|t| (aside(t) < 0.0) == (start < 0.0)),
+            None => return None,
+        };
+        if !is_ahead(t) {
             return None;
         }
-        let t = bisect(|t| (aside(t) < 0.0) == (start < 0.0));
         let side = usize::from(self.mat.graph.edges[edge as usize].pieces[1] == piece);
         Some((Spot { edge, t }, side))
     }
@@ -330,6 +342,30 @@ mod tests {
             }
         }
         assert!(found > 1800, "{found}");
+    }
+
+    #[test]
+    fn the_spoke_of_a_joint_ends_at_the_joint() {
+        // Joints of the axis at 8.5 from the center, on the spokes of the ends of the arcs drawn.
+        let outer = ArcSpline::closed([
+            (24.0, 37.0, 0.414_213_562_373_095_1),
+            (12.0, 25.0, 1.0),
+            (36.0, 25.0, 0.414_213_562_373_095_1),
+        ]);
+        let a = 5.0 * std::f64::consts::FRAC_1_SQRT_2;
+        let hole = ArcSpline::closed([(24.0 + a, 25.0 + a, -1.0), (24.0 - a, 25.0 - a, -1.0)]);
+        let mat = Pocket::from_loops(vec![outer, hole], Tolerance::MM).unwrap().medial_axis().unwrap();
+        let roads = Roads::new(&mat);
+        for (x, y) in [(0.0, 1.0), (-1.0, 0.0), (1.0, 0.0), (0.0, -1.0)] {
+            for d in [3.0, 3.25] {
+                let at = |r: f64| point(24.0 + r * x, 25.0 + r * y);
+                for p in [at(12.0 - d), at(5.0 + d)] {
+                    let (spot, _) = roads.foot(p).unwrap();
+                    let place = roads.place(spot);
+                    assert!(place.distance(at(8.5)) < 1e-9, "{p}: {place} {spot:?} {:?}", roads.vertices);
+                }
+            }
+        }
     }
 
     #[test]

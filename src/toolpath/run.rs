@@ -44,9 +44,9 @@ impl Planner<'_> {
     fn leave_for(&mut self, ground: &Ground, stop: Stop, from: Point) -> Result<(), Error> {
         let way = ground.crests[stop.crest].excursion(stop.gate, from);
         self.afford(way.len() as u64)?;
-        self.crests.count += 1;
+        self.amounts.crests += 1;
         for e in &way {
-            self.crests.length += e.length();
+            self.amounts.crest_length += e.length();
             self.cutter.cut(e);
         }
         Ok(())

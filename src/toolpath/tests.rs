@@ -60,7 +60,7 @@ fn plan(level: fn(f64) -> Level, depth: fn(Point) -> f64, job: &Job) -> Planned 
     Planned {
         moves: std::mem::take(&mut planner.cutter.moves),
         totals: planner.cutter.totals,
-        warnings: warnings.into_iter().collect(),
+        warnings,
         passes,
     }
 }

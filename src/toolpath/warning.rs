@@ -49,6 +49,17 @@ pub enum Warning {
         /// The first place where the tool goes straight down.
         at: Option<Point>,
     },
+    /// Leads onto finishing passes are smaller than asked, or there are none.
+    LeadFallback {
+        /// Radius as asked.
+        asked: f64,
+        /// How many passes have a smaller one.
+        smaller: usize,
+        /// How many passes are met straight.
+        none: usize,
+        /// The first of these places.
+        at: Option<Point>,
+    },
 }
 
 impl Warning {
@@ -59,6 +70,7 @@ impl Warning {
             Warning::ToolTooLarge { .. } => "tool-too-large",
             Warning::NarrowNeck { .. } => "narrow-neck",
             Warning::EntryFallback { .. } => "entry-fallback",
+            Warning::LeadFallback { .. } => "lead-fallback",
         }
     }
 
@@ -67,7 +79,7 @@ impl Warning {
         match self {
             Warning::StepReduced { .. } => None,
             Warning::ToolTooLarge { at, .. } | Warning::NarrowNeck { at, .. } => Some(*at),
-            Warning::EntryFallback { at, .. } => *at,
+            Warning::EntryFallback { at, .. } | Warning::LeadFallback { at, .. } => *at,
         }
     }
 
@@ -92,6 +104,9 @@ impl Warning {
                 "use a tool that cuts at its center, or drill there first".into()
             }
             Warning::EntryFallback { .. } => "ask for --entry ramp".into(),
+            Warning::LeadFallback { .. } => {
+                "ask for smaller leads with --lead, or for none with --lead 0".into()
+            }
         }
     }
 }
@@ -121,6 +136,14 @@ impl fmt::Display for Warning {
                     (ramps, 0) => write!(f, "{ramps} by ramp"),
                     (0, plunges) => write!(f, "{plunges} straight down"),
                     _ => write!(f, "{ramps} by ramp, {plunges} straight down"),
+                }
+            }
+            Warning::LeadFallback { asked, smaller, none, .. } => {
+                write!(f, "no room for leads of radius {asked} onto finishing passes: ")?;
+                match (smaller, none) {
+                    (smaller, 0) => write!(f, "{smaller} with a smaller one"),
+                    (0, none) => write!(f, "{none} met straight"),
+                    _ => write!(f, "{smaller} with a smaller one, {none} met straight"),
                 }
             }
         }

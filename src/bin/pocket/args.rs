@@ -86,6 +86,12 @@ pub struct Args {
     #[arg(long, value_name = "LENGTH", value_parser = at_least_0, help_heading = "Tool and passes")]
     pub finish: Option<Length>,
 
+    /// Radius of the arcs onto finishing passes and off them [default: half the tool]
+    ///
+    /// Less where there is less room, and at least as wide as --finish; 0 for none.
+    #[arg(long, value_name = "LENGTH", value_parser = at_least_0, help_heading = "Tool and passes")]
+    pub lead: Option<Length>,
+
     /// Run the wall passes at the floor this often once more
     #[arg(long, value_name = "N", default_value_t = 0, help_heading = "Tool and passes")]
     pub spring: u32,
@@ -105,6 +111,10 @@ pub struct Args {
     /// How the tool gets down; falls back in this order where it does not fit
     #[arg(long, value_enum, default_value_t, help_heading = "Machine")]
     pub entry: EntryArg,
+
+    /// Cut through a neck as wide as the tool instead of lifting the tool over it
+    #[arg(long, help_heading = "Machine")]
+    pub slot: bool,
 
     /// Slope of ramps
     #[arg(long, value_name = "DEGREES", value_parser = slope, default_value = "3", help_heading = "Machine")]

@@ -4,8 +4,8 @@ use crate::notice::{Notice, counted, short};
 use crate::plan::Plan;
 use crate::timings::Timings;
 use crate::verdict::Verdict;
-use medial::Units;
-use medial::toolpath::Totals;
+use medial::toolpath::{PocketPath, Rest, Totals};
+use medial::{Pocket, Point, Units};
 use serde::Serialize;
 use std::fmt::Write;
 
@@ -17,7 +17,7 @@ pub struct Report<'a> {
     tool: f64,
     step: f64,
     tolerance: f64,
-    pockets: Vec<PocketReport>,
+    pockets: Vec<PocketReport<'a>>,
     path: Totals,
     verify: Option<&'a Verdict>,
     warnings: &'a [Notice],
@@ -26,17 +26,81 @@ pub struct Report<'a> {
 }
 
 #[derive(Serialize)]
-struct PocketReport {
+struct PocketReport<'a> {
     area: f64,
     islands: usize,
     arcs: usize,
     largest_tool: f64,
     unreachable_area: f64,
+    unreachable: &'a [Rest],
     narrowest_neck: Option<f64>,
     passes: usize,
     crests: usize,
     crest_length: f64,
+    largest_step: f64,
+    largest_step_at: Option<Point>,
+    full_width_length: f64,
+    entry_length: f64,
+    link_length: f64,
+    slots: usize,
+    slot_length: f64,
+    most_retracts: usize,
+    path: Totals,
     machined: bool,
+}
+
+impl<'a> PocketReport<'a> {
+    fn new(pocket: &Pocket, path: &'a PocketPath) -> PocketReport<'a> {
+        PocketReport {
+            area: pocket.area(),
+            islands: pocket.islands().len(),
+            arcs: pocket.loops().flat_map(|l| l.elements()).filter(|e| !e.is_segment()).count(),
+            largest_tool: path.largest_tool,
+            unreachable_area: path.unreachable_area,
+            unreachable: &path.unreachable,
+            narrowest_neck: path.narrowest_neck,
+            passes: path.passes,
+            crests: path.crests,
+            crest_length: path.crest_length,
+            largest_step: path.largest_step,
+            largest_step_at: path.largest_step_at,
+            full_width_length: path.full_width_length,
+            entry_length: path.entry_length,
+            link_length: path.link_length,
+            slots: path.slots,
+            slot_length: path.slot_length,
+            most_retracts: path.most_retracts,
+            path: path.totals,
+            machined: path.machined,
+        }
+    }
+}
+
+impl PocketReport<'_> {
+    /// How the pocket is cut, for people.
+    fn details(&self, unit: &str) -> String {
+        if self.passes == 0 {
+            return String::new();
+        }
+        let Totals { cut_length, rapid_length, retracts, minutes, .. } = self.path;
+        let mut text = format!(
+            "  {cut_length:.1} {unit} cut, {:.1} {unit} of it at full width, largest step {:.4} {unit}; \
+             {rapid_length:.1} {unit} rapid, {} (at most {} needed), {minutes:.1} min\n",
+            self.full_width_length,
+            self.largest_step,
+            counted(retracts, "retract", "retracts"),
+            self.most_retracts,
+        );
+        if self.slots > 0 {
+            let slots = counted(self.slots, "slot", "slots");
+            text += &format!("  {slots} through stock, {:.1} {unit} long\n", self.slot_length);
+        }
+        if let Some(rest) = self.unreachable.first() {
+            let places = counted(self.unreachable.len(), "place", "places");
+            text += &format!("  rest in {places}, up to {:.4} {unit} high at {}\n", rest.height, rest.at);
+        }
+        text
+    }
 }
 
 impl<'a> Report<'a> {
@@ -49,20 +113,7 @@ impl<'a> Report<'a> {
             tool: plan.job.tool,
             step: plan.job.used_step(),
             tolerance: plan.tolerance.fit,
-            pockets: pockets
-                .map(|(pocket, path)| PocketReport {
-                    area: pocket.area(),
-                    islands: pocket.islands().len(),
-                    arcs: pocket.loops().flat_map(|l| l.elements()).filter(|e| !e.is_segment()).count(),
-                    largest_tool: path.largest_tool,
-                    unreachable_area: path.unreachable_area,
-                    narrowest_neck: path.narrowest_neck,
-                    passes: path.passes,
-                    crests: path.crests,
-                    crest_length: path.crest_length,
-                    machined: path.machined,
-                })
-                .collect(),
+            pockets: pockets.map(|(pocket, path)| PocketReport::new(pocket, path)).collect(),
             path: plan.path.totals,
             verify,
             warnings: &plan.notices,
@@ -109,7 +160,8 @@ impl<'a> Report<'a> {
                     let crests = counted(p.crests, "pass", "passes");
                     let _ = write!(text, " and {crests} along the axis ({:.1} {unit})", p.crest_length);
                 }
-                writeln!(text, ", {:.4} {unit}2 out of reach", p.unreachable_area)
+                let _ = writeln!(text, ", {:.4} {unit}2 out of reach", p.unreachable_area);
+                text.write_str(&p.details(unit))
             } else {
                 writeln!(text, ", left out")
             };

@@ -41,6 +41,7 @@ impl Args {
             stock: or(self.stock, defaults.stock),
             floor_stock: or(self.floor_stock, defaults.floor_stock),
             finish: or(self.finish, defaults.finish),
+            lead: self.lead.map(|l| l.to(units)),
             spring: self.spring,
             direction: match self.direction {
                 DirectionArg::Climb => Direction::Climb,
@@ -58,6 +59,7 @@ impl Args {
                 EntryArg::Ramp => Entry::Ramp,
                 EntryArg::Plunge => Entry::Plunge,
             },
+            slot: self.slot,
             ramp_angle: self.ramp_angle,
             feed: or(self.feed, defaults.feed),
             plunge_feed: or(self.plunge_feed, defaults.plunge_feed),

@@ -1,0 +1,185 @@
+//! How wide the passes cut, as far as the axis knows it.
+//!
+//! **Needs** the axis, the levels, and the order in which the passes are cut.
+//! **Guarantees** that the largest step is that between neighboring passes wherever they are, across
+//! the axis too, measured on the axis; that cuts of the full width of the tool are told to within an
+//! eighth of its radius, and rather too long than too short.
+//! **Does not** look at the stretch in front of the tool in corners.
+//!
+//! **Method.** Where the spoke of a place on a pass reaches the next level, that pass is its neighbor,
+//! a step away. Where the axis ends the spoke before, between `d` and the next level `e`, the neighbor
+//! is the pass on the other side of the axis: parts of the axis with `d < r < e`, and the offsets on
+//! both sides of them. Of the two sides the one that is cut first has no neighbor; it is cut as wide
+//! as the tool where the next level is farther than the diameter.
+
+use super::crest::Reach;
+use super::indexed::Indexed;
+use super::nest::index;
+use super::roads::{Roads, Spot};
+use super::{Job, Start};
+use crate::geom::{Element, Point};
+use rayon::prelude::*;
+use rstar::RTree;
+
+/// Pieces per tool radius in which lengths are measured.
+const PIECES: f64 = 8.0;
+
+/// Most pieces of one part.
+const MAX_PIECES: f64 = 4096.0;
+
+/// How wide is cut in a pocket at one height.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Widths {
+    /// Largest distance between neighboring passes, and a place halfway between two of them.
+    pub largest_step: f64,
+    pub at: Option<Point>,
+    /// Length of each pass that is cut at the full width of the tool.
+    pub full: Vec<f64>,
+}
+
+/// What one part of the axis tells.
+struct Told {
+    apart: f64,
+    at: Point,
+    full: Option<(usize, f64)>,
+}
+
+impl Widths {
+    /// Looks at all passes; `rank` tells which comes before which.
+    pub fn new(job: &Job, roads: &Roads, reach: &Reach, rank: &[usize]) -> Widths {
+        let mut widths = Widths { full: vec![0.0; rank.len()], ..Widths::default() };
+        let outward = reach.nest.outer.iter().zip(&reach.nest.passes);
+        for (own, doors) in outward.map(|(doors, pass)| (pass.level, doors)) {
+            for door in doors {
+                let other = reach.nest.passes[door.pass].level;
+                let apart = reach.levels[own].distance - reach.levels[other].distance;
+                widths.step(apart, door.at);
+            }
+        }
+        let trees: Vec<RTree<Indexed>> = reach.levels.par_iter().map(index).collect();
+        let parts = reach.between_levels(roads);
+        let of_part = |&(level, edge, t): &(usize, u32, [f64; 2])| {
+            let beside = Beside { job, roads, reach, trees: &trees, rank, level, edge };
+            beside.tell(t)
+        };
+        let told: Vec<Told> = parts.par_iter().map(of_part).collect();
+        for Told { apart, at, full } in told {
+            widths.step(apart, at);
+            if let Some((pass, length)) = full {
+                widths.full[pass] += length;
+            }
+        }
+        if job.start == Start::Outside {
+            widths.from_outside(reach, rank);
+        }
+        widths
+    }
+
+    fn step(&mut self, apart: f64, at: Point) {
+        if apart > self.largest_step {
+            (self.largest_step, self.at) = (apart, Some(at));
+        }
+    }
+
+    /// From the wall inward every pass has its outer neighbor but the first ones, which are cut in full.
+    fn from_outside(&mut self, reach: &Reach, rank: &[usize]) {
+        for (pass, full) in self.full.iter_mut().enumerate() {
+            let mut outer = reach.nest.outer[pass].iter();
+            let is_first = !outer.any(|door| rank[door.pass] < rank[pass]);
+            *full = if is_first { reach.nest.spline(reach.levels, pass).length() } else { 0.0 };
+        }
+    }
+}
+
+/// A part of an edge between two levels.
+struct Beside<'a> {
+    job: &'a Job,
+    roads: &'a Roads<'a>,
+    reach: &'a Reach<'a>,
+    trees: &'a [RTree<Indexed>],
+    rank: &'a [usize],
+    level: usize,
+    edge: u32,
+}
+
+impl Beside<'_> {
+    fn tell(&self, t: [f64; 2]) -> Told {
+        let (apart, at) = self.apart(t);
+        Told { apart, at, full: self.full_width(t) }
+    }
+
+    /// How far the passes on both sides lie apart at most, or from a crest between them.
+    fn apart(&self, t: [f64; 2]) -> (f64, Point) {
+        let d = self.reach.levels[self.level].distance;
+        let mut most = (0.0, Point::default());
+        for t in [t[0], 0.5 * (t[0] + t[1]), t[1]] {
+            let spot = Spot { edge: self.edge, t };
+            let center = self.roads.place(spot);
+            let above = self.roads.radius(spot) - d;
+            let [a, b] = [0, 1].map(|side| self.roads.on_spoke(self.edge, side, center, d));
+            let across = if above > self.job.radius() { above } else { a.distance(b) };
+            if across.min(self.job.tool) > most.0 {
+                most = (across.min(self.job.tool), center);
+            }
+        }
+        most
+    }
+
+    /// The pass on the side that is cut first, and how long it is cut at full width there.
+    fn full_width(&self, t: [f64; 2]) -> Option<(usize, f64)> {
+        let d = self.reach.levels[self.level].distance;
+        let sides = [0, 1].map(|side| self.roads.offset(self.edge, side, t, d));
+        let inner = self.trees.get(self.level + 1).filter(|tree| tree.size() > 0);
+        let is_far = |p: Point| {
+            let nearest = inner.and_then(|tree| tree.nearest_neighbor(&[p.x, p.y]));
+            nearest.is_none_or(|n| n.element.distance(p) >= self.job.tool)
+        };
+        let lengths = sides.map(|e| full_length(&e, self.job.radius() / PIECES, self.job.tool, is_far));
+        if lengths == [0.0; 2] {
+            return None;
+        }
+        let passes = sides.map(|e| self.pass_at(e.midpoint()));
+        let [Some(a), Some(b)] = passes else { return None };
+        // On one pass either side may be the first.
+        let first = match a == b {
+            true => usize::from(lengths[1] > lengths[0]),
+            false => usize::from(self.rank[b] < self.rank[a]),
+        };
+        Some((passes[first]?, lengths[first]))
+    }
+
+    fn pass_at(&self, p: Point) -> Option<usize> {
+        let near = self.trees[self.level].nearest_neighbor(&[p.x, p.y])?;
+        self.reach.nest.pass(self.level, near.index)
+    }
+}
+
+/// How much of an element is far from all that is cut, looked at in pieces; `tool` is the distance.
+fn full_length(e: &Element, piece: f64, tool: f64, is_far: impl Fn(Point) -> bool) -> f64 {
+    let length = e.length();
+    if !length.is_finite() || length == 0.0 {
+        return 0.0;
+    }
+    // All of a short element is near where one place of it is very near.
+    if length <= tool && !is_far(e.start) && !is_far(e.end) && !is_far(e.midpoint()) {
+        return 0.0;
+    }
+    let count = (length / piece).ceil().clamp(1.0, MAX_PIECES);
+    let far = (0..count as u64).filter(|&i| is_far(e.point_at((i as f64 + 0.5) / count))).count();
+    length * far as f64 / count
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::point;
+
+    #[test]
+    fn of_an_element_counts_what_is_far_from_all_that_is_cut() {
+        let e = Element::segment(point(0.0, 0.0), point(10.0, 0.0));
+        let far = |p: Point| p.x >= 4.0;
+        assert!((full_length(&e, 0.5, 6.0, far) - 6.0).abs() <= 0.5);
+        assert_eq!(full_length(&e, 0.5, 6.0, |_| false), 0.0);
+        assert_eq!(full_length(&e, 0.5, 6.0, |_| true), 10.0);
+    }
+}

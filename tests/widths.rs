@@ -1,0 +1,108 @@
+//! The report knows how wide is cut: the largest step, what is cut at full width, and what remains.
+
+use medial::{ArcSpline, Job, Mat, Path, Pocket, Start, Tolerance, Units, point};
+
+fn mat(loops: Vec<ArcSpline>) -> Mat {
+    Pocket::from_loops(loops, Tolerance::MM).unwrap().medial_axis().unwrap()
+}
+
+/// A pocket of 60 by 40.
+fn rectangle() -> Mat {
+    mat(vec![ArcSpline::closed([(0.0, 0.0, 0.0), (60.0, 0.0, 0.0), (60.0, 40.0, 0.0), (0.0, 40.0, 0.0)])])
+}
+
+fn job() -> Job {
+    Job { depth: 2.0, step_down: Some(1.0), ..Job::new(Units::Mm, 6.0, 2.4) }
+}
+
+fn path(mat: &Mat, job: &Job) -> Path {
+    job.path(std::slice::from_ref(mat)).unwrap()
+}
+
+/// Passes cut at full width, at each of two heights.
+fn full(path: &Path) -> f64 {
+    let own = &path.pockets[0];
+    0.5 * (own.full_width_length - own.entry_length - own.link_length)
+}
+
+#[test]
+fn at_the_corners_of_a_rectangle_neighbors_are_farther_apart_than_the_step() {
+    let path = path(&rectangle(), &job());
+    let own = &path.pockets[0];
+    assert!((own.largest_step - 2.4 * 2f64.sqrt()).abs() < 1e-9, "{}", own.largest_step);
+}
+
+#[test]
+fn between_straight_walls_passes_lie_apart_across_the_axis() {
+    // Half circles at both ends: levels at 3 and 5.4, the axis at 7.
+    let slot = ArcSpline::closed([(0.0, 0.0, 0.0), (50.0, 0.0, 1.0), (50.0, 14.0, 0.0), (0.0, 14.0, 1.0)]);
+    let own = &path(&mat(vec![slot]), &job()).pockets[0];
+    assert!((own.largest_step - 2.0 * (7.0 - 5.4)).abs() < 1e-9, "{}", own.largest_step);
+    assert!((own.largest_step_at.unwrap().y - 7.0).abs() < 1e-9);
+}
+
+#[test]
+fn one_side_of_the_first_pass_is_cut_at_full_width() {
+    // The innermost level at 19.8 is 20.4 by 0.4.
+    let full = full(&path(&rectangle(), &job()));
+    assert!((full - 20.8).abs() < 1e-9, "{full}");
+}
+
+#[test]
+fn from_outside_the_wall_pass_is_cut_at_full_width() {
+    let full = full(&path(&rectangle(), &Job { start: Start::Outside, ..job() }));
+    assert!((full - 2.0 * (54.0 + 34.0)).abs() < 1e-9, "{full}");
+}
+
+#[test]
+fn one_side_of_a_narrow_arm_is_cut_at_full_width() {
+    let outline = ArcSpline::closed([
+        (0.0, 0.0, 0.0),
+        (40.0, 0.0, 0.0),
+        (40.0, 16.0, 0.0),
+        (80.0, 16.0, 0.0),
+        (80.0, 24.0, 0.0),
+        (40.0, 24.0, 0.0),
+        (40.0, 40.0, 0.0),
+        (0.0, 40.0, 0.0),
+    ]);
+    let arm = mat(vec![outline]);
+    let full = full(&path(&arm, &job()));
+    // The pass reaches 37 into the arm; the first diameter of that is cut beside the last pass of the
+    // chamber, and a little belongs to the first pass.
+    assert!(full > 30.0 && full < 42.0, "{full}");
+}
+
+#[test]
+fn an_entry_is_as_long_as_its_slope_and_counts_as_full_width() {
+    let path = path(&rectangle(), &job());
+    let own = &path.pockets[0];
+    let least = 2.0 / 3f64.to_radians().sin();
+    assert!((own.entry_length / least - 1.0).abs() < 1e-9, "{}", own.entry_length);
+    assert!((own.link_length - 2.0 * 7.0 * 2.4).abs() < 1e-9);
+    assert!(own.full_width_length > own.entry_length + own.link_length);
+}
+
+#[test]
+fn rest_is_told_with_its_place() {
+    let path = path(&rectangle(), &job());
+    let rest = &path.pockets[0].unreachable;
+    assert_eq!(rest.len(), 4);
+    assert!(rest.iter().any(|r| r.at.distance(point(60.0, 40.0)) < 1e-9));
+    assert!(rest.iter().all(|r| (r.height - 3.0 * (2f64.sqrt() - 1.0)).abs() < 1e-9));
+}
+
+#[test]
+fn what_pockets_amount_to_adds_up_to_the_path() {
+    let island = ArcSpline::circle(point(20.0, 20.0), 6.0).reversed();
+    let square = |x: f64| {
+        ArcSpline::closed([(x, 0.0, 0.0), (x + 40.0, 0.0, 0.0), (x + 40.0, 40.0, 0.0), (x, 40.0, 0.0)])
+    };
+    let mats = [mat(vec![square(0.0), island]), mat(vec![square(60.0)])];
+    let path = job().path(&mats).unwrap();
+    let sum = |of: fn(&medial::Totals) -> f64| path.pockets.iter().map(|p| of(&p.totals)).sum::<f64>();
+    assert!((sum(|t| t.cut_length) - path.totals.cut_length).abs() < 1e-6);
+    assert!((sum(|t| t.rapid_length) - path.totals.rapid_length).abs() < 1e-6);
+    assert_eq!(sum(|t| t.retracts as f64), path.totals.retracts as f64);
+    assert!(path.pockets.iter().all(|p| p.totals.retracts > 0 && p.most_retracts >= 2));
+}
