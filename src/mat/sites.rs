@@ -9,7 +9,7 @@ use super::frame::Frame;
 use super::site::{Foot, Joint, NONE, Site};
 use super::splice::{Drawn, TANGENT_ROUNDINGS, place_key, splice};
 use super::{SiteKind, SiteRef};
-use crate::boundary::Pocket;
+use crate::boundary::{Pocket, TOUCHING_ULPS};
 use crate::geom::{Point, Vector};
 use std::collections::HashMap;
 use std::f64::consts::FRAC_PI_2;
@@ -354,10 +354,10 @@ fn joint_between(part: &Part, after: &Part, noise: f64) -> Joint {
     let (turn, ahead) = (n0.cross(n1), n0.dot(n1));
     let is_corner = turn.abs() > direction_error(part, after, noise) + part.unseen + after.unseen;
     // Two elements that turn back by `turn` less than half a turn and bend toward each other by `bend` meet
-    // again at `2 turn / bend`. Between, they lie apart by up to `turn^2 / (2 bend)`.
+    // again at `2 turn / bend`. Between, they overlap by up to `turn^2 / (2 bend)`, and a pocket may.
     let bend = part.curvature + after.curvature;
     let is_cusp =
-        ahead < 0.0 && turn * bend > 0.0 && turn * turn <= 2.0 * bend.abs() * TANGENT_ROUNDINGS * noise;
+        ahead < 0.0 && turn * bend > 0.0 && turn * turn <= 2.0 * bend.abs() * TOUCHING_ULPS * noise;
     if is_corner && !is_cusp {
         if turn > 0.0 { Joint::Convex } else { Joint::Cone }
     } else if ahead > 0.0 {
