@@ -56,3 +56,35 @@ fn a_cusp_that_overlaps_by_round_off_is_a_corner() {
         ),
     ]);
 }
+
+/// Two hollow arcs of nearly the same circle: a disk as large as they are touches them nearly everywhere,
+/// and its radius came with half of its digits.
+#[test]
+fn disks_nearly_as_large_as_an_arc_have_all_their_digits() {
+    assert_right(&[
+        ("two half circles", &[&[(3.0, 0.0, 0.99999998), (-3.0, 0.0, 0.99999998)]]),
+        (
+            "half circle and less than one",
+            &[&[
+                (60.0, 22.0, 1.0417e-4),
+                (59.99999895833329, 22.004999999995903, 0.9995834201),
+                (36.00000104166671, 22.004999999995903, 1.0417e-4),
+                (36.0, 22.0, 1.0),
+            ]],
+        ),
+        ("three arcs", &[&[(6.0, 0.0, 0.0), (54.0, -0.01, 1.0), (54.0, 12.0, 1.0)]]),
+        (
+            "slot with a long and a short wall",
+            &[&[(47.0, 36.0, 0.0), (33.0, 36.0, 0.0), (33.0, 14.0, 1.0), (47.0, 14.005, 0.0)]],
+        ),
+        (
+            "circle with a short arc",
+            &[&[
+                (7.736474369757218e-4, -2.578824789907e-4, 0.4142135136621),
+                (2.578825647674e-4, 2.578824789942686e-4, 4.157743024e-8),
+                (2.578824789907e-4, 2.57882478994275e-4, 0.414213562373095),
+                (-2.57882478994e-4, -2.578824789907e-4, 1.0),
+            ]],
+        ),
+    ]);
+}

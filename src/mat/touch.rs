@@ -105,7 +105,16 @@ fn to_point(q: Point, probe: &Probe, error: f64) -> f64 {
     if depth > error { 0.5 * w.length_squared() / depth } else { f64::INFINITY }
 }
 
+/// Share of the radius of an arc, the rest of which a disk takes up, below which `1 - k r` is computed
+/// apart: two bits are lost where it is a quarter.
+const NEARLY_FULL: f64 = 0.25;
+
 /// Radius of the disk tangent to the span between its ends.
+///
+/// A disk nearly as large as a hollow arc hangs on `f = 1 - k r`, the distance of their centers: it touches
+/// to round-off divided by `f` only if `f` is what cancellation leaves. With `g = N - n + k w` (`1 / k` times
+/// that is the way between the centers of the arc and of a disk as large as it) it is `|g|^2` divided by the
+/// same denominator, which is `2 g.N`.
 #[inline]
 fn tangent(span: &Span<'_>, probe: &Probe) -> Option<f64> {
     let k = span.site.curvature;
@@ -118,10 +127,16 @@ fn tangent(span: &Span<'_>, probe: &Probe) -> Option<f64> {
     if !(numerator > 0.0 && denominator > 0.0) {
         return None;
     }
-    let r = numerator / denominator;
-    let f = 1.0 - k * r;
-    if f <= 0.0 {
-        return None;
+    let (mut r, mut f) = (numerator / denominator, 1.0);
+    if k != 0.0 {
+        f -= k * r;
+        if f < NEARLY_FULL {
+            f = (probe.normal - n + w * k).length_squared() / denominator;
+            r = (1.0 - f) / k;
+        }
+        if !(f > 0.0 && r > 0.0) {
+            return None;
+        }
     }
     // The contact, seen from the nearer end: c - A = w + r N, its normal is (n - k (c - A)) / f.
     let to_center = w + probe.normal * r;
