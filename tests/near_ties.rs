@@ -89,6 +89,19 @@ fn disks_nearly_as_large_as_an_arc_have_all_their_digits() {
     ]);
 }
 
+/// A flat corner and two walls at one distance: three of the four hardly tell where the disk is.
+#[test]
+fn a_tie_at_a_flat_corner_is_told_by_the_walls() {
+    let bulge = -0.41421356237354656;
+    assert_right(&[(
+        "round island between walls",
+        &[
+            &[(7.5, -2.0, 0.0), (7.5, 10.0, 0.0), (-17.5, 10.0, 0.0), (-17.5, -2.0, 0.0)],
+            &[(1.5, 4.0, bulge), (-1.5000000000046256, 1.0, bulge), (-4.5, 4.000000000004626, -1.0)],
+        ],
+    )]);
+}
+
 /// The tip of a hair-thin ellipse: its arcs, as short as round-off, take their direction from one of the
 /// walls, and must not hand it on to the other.
 #[test]
