@@ -7,6 +7,13 @@ use crate::geom::{Bounds, Point};
 /// the foot of a perpendicular on an element with such ends as many again.
 const ULPS: f64 = 16.0;
 
+/// Places found from the full curves may be off by a few times the round-off of their ends.
+pub(super) const SLACK: f64 = 4.0;
+
+/// Units in the last place of the largest coordinate by which elements of a pocket may overlap on the way
+/// from a common end to where they part: they cannot be told apart there.
+pub(crate) const TOUCHING_ULPS: f64 = SLACK * ULPS;
+
 /// Round-off of the places of one drawing, in job units.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Grain {

@@ -12,11 +12,9 @@
 //! place that is joined to one of the ends by a stretch on which the curves cannot be told apart
 //! is that end, found again with less accuracy.
 
+use super::grain::SLACK;
 use crate::geom::{Element, Point, Vector};
 use robust::{Coord, orient2d};
-
-/// Places found from the full curves may be off by a few times the round-off of their ends.
-const SLACK: f64 = 4.0;
 
 /// Appends the places where two elements meet, shared ends included; `same` is the round-off of
 /// places.

@@ -51,6 +51,7 @@ mod simple;
 mod tee;
 
 pub use curve::{Curve, FreeCurve, FreeShape, Source};
+pub(crate) use grain::TOUCHING_ULPS;
 pub use pocket::{Pocket, Pockets};
 #[cfg(feature = "geo-types")]
 pub(crate) use ray::{Rays, turned};

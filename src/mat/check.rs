@@ -5,7 +5,7 @@ use super::graph::{BoundaryPiece, Graph, GraphEdge};
 use super::piece::{Piece, UnitDisk};
 use super::site::{Foot, NONE};
 use super::splice::TANGENT_ROUNDINGS;
-use super::track::Track;
+use super::track::inner_disk;
 use super::union::Sets;
 use super::{Mat, Mismatch};
 use crate::geom::Point;
@@ -66,17 +66,16 @@ impl Mat {
 
     /// Whether the disk in the middle of an edge is empty, and as large as between its ends.
     fn check_middle(&self, edge: &GraphEdge, found: &mut Findings) {
-        let pieces = edge.pieces.map(|p| self.graph.pieces[p as usize].piece);
-        let track = Track::of(&self.sites, &pieces[0]);
-        let probe = track.at(0.5);
-        let (radius, _) = track.reach(&self.sites, &pieces[1], &probe);
-        if radius.is_finite() {
-            let disk = UnitDisk { center: probe.center(radius), radius };
-            found.note(Residual::Empty, self.intrusion(&disk), disk.center);
-            let ends = edge.disks.map(|d| self.graph.disks[d as usize].radius);
-            let beyond = (radius - ends[0].max(ends[1])).max(ends[0].min(ends[1]) - radius);
-            found.note(Residual::Monotone, beyond.max(0.0), disk.center);
-        }
+        let pieces = edge.pieces.map(|p| &self.graph.pieces[p as usize].piece);
+        let ends = edge.disks.map(|d| &self.graph.disks[d as usize]);
+        let disk = inner_disk(&self.sites, pieces).unwrap_or(UnitDisk {
+            center: ends[0].center.midpoint(ends[1].center),
+            radius: 0.5 * (ends[0].radius + ends[1].radius),
+        });
+        found.note(Residual::Empty, self.intrusion(&disk), disk.center);
+        let radii = ends.map(|d| d.radius);
+        let beyond = (disk.radius - radii[0].max(radii[1])).max(radii[0].min(radii[1]) - disk.radius);
+        found.note(Residual::Monotone, beyond.max(0.0), disk.center);
     }
 
     /// Largest distance of a center from the normal at a footpoint that is round-off: disks that

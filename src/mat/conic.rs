@@ -7,9 +7,9 @@
 //! edge, whose barycentric coordinates obey `l1^2 = 4 w^2 l0 l2`.
 
 use super::graph::{Graph, GraphEdge};
-use super::piece::Piece;
+use super::piece::{Piece, UnitDisk};
 use super::site::Site;
-use super::track::Track;
+use super::track::inner_disk;
 use crate::geom::{Point, Vector};
 
 /// Control points and middle weight, in the unit frame.
@@ -35,7 +35,7 @@ pub(super) fn bezier(sites: &[Site], graph: &Graph, edge: &GraphEdge) -> ([Point
     if !(between > 0.0 && between < 1.0 && height > graph.error) {
         return straight;
     }
-    let Some(s) = inner_point(sites, &a, &b) else { return straight };
+    let Some(UnitDisk { center: s, .. }) = inner_disk(sites, [&a, &b]) else { return straight };
     // Barycentric coordinates of S in the control triangle, each a ratio of areas.
     let (p0, p2) = (u - middle, v - middle);
     let area = p0.cross(p2);
@@ -49,14 +49,4 @@ pub(super) fn bezier(sites: &[Site], graph: &Graph, edge: &GraphEdge) -> ([Point
 
 fn both_vertices(sites: &[Site], a: &Piece, b: &Piece) -> bool {
     sites[a.site as usize].is_vertex && sites[b.site as usize].is_vertex
-}
-
-/// A point of the edge well inside: over the middle of its longer piece.
-fn inner_point(sites: &[Site], a: &Piece, b: &Piece) -> Option<Point> {
-    let extent = |p: &Piece| p.from.point.distance(p.to.point);
-    let (along, across) = if extent(b) > extent(a) { (b, a) } else { (a, b) };
-    let track = Track::of(sites, along);
-    let probe = track.at(0.5);
-    let (radius, _) = track.reach(sites, across, &probe);
-    radius.is_finite().then(|| probe.center(radius))
 }

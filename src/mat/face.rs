@@ -17,6 +17,7 @@ use super::site::{Foot, Site};
 use super::touch::{Contact, Probe, foot_of};
 use super::track::Track;
 use crate::geom::{Bounds, Vector};
+use std::cmp::Ordering;
 
 /// A piece of a face and the disk at its end.
 #[derive(Clone, Copy, Debug)]
@@ -139,8 +140,7 @@ impl<'a> Face<'a> {
         loop {
             let t = equal_reach(self.sites, &track, second, piece(third), from);
             let probe = track.at(t);
-            let radius = |p: &Piece| track.reach(self.sites, p, &probe).0;
-            let reach = radius(second).min(radius(piece(third)));
+            let reach = common_reach(self.sites, &track, t, [second, piece(third)]);
             // The order of partners makes the index fall, so this ends.
             if let Some(nearer) = self.nearest_between(sub, graph, &track, &probe, reach, third) {
                 (third, from) = (nearer, t);
@@ -165,14 +165,14 @@ impl<'a> Face<'a> {
         [0, 1, third - 1, third, last].into_iter().find_map(|i| {
             let disk = graph.disks[sub.get(self.slots, i).disk as usize];
             let feet = || [0, 1, 2].map(|i| foot_of(sites[i], disk.center, &pieces[i].from, &pieces[i].to));
-            let touches = disk.radius > 0.0 && self.touches(sub, disk, third, graph);
+            let touches = disk.radius > 0.0 && self.touches(sub, disk, [0, 1, third], graph);
             touches.then(|| Branch { disk, feet: feet(), third })
         })
     }
 
-    /// Whether a disk touches the first piece, the second, and the one at `third`, to round-off.
-    fn touches(&self, sub: &SubFace, disk: UnitDisk, third: usize, graph: &Graph) -> bool {
-        [0, 1, third].into_iter().all(|i| {
+    /// Whether a disk touches three pieces, to round-off.
+    fn touches(&self, sub: &SubFace, disk: UnitDisk, pieces: [usize; 3], graph: &Graph) -> bool {
+        pieces.into_iter().all(|i| {
             let Piece { site, from, to, .. } = graph.pieces[sub.get(self.slots, i).piece as usize].piece;
             let part = Site { start: from, end: to, ..self.sites[site as usize] };
             (part.distance(disk.center) - disk.radius).abs() <= TIE_ERROR
@@ -180,8 +180,8 @@ impl<'a> Face<'a> {
     }
 
     /// Where more pieces touch the same disk, to round-off, than the three that define it: the disk
-    /// through the one that defines it best, if it touches the three and is as empty. It need not: a
-    /// disk that three pieces define badly is near to many that it has nothing to do with.
+    /// through two of these and the one that defines it best, if it touches the three and is as empty. It
+    /// need not: a disk that three pieces define badly is near to many that it has nothing to do with.
     fn best_of_ties(
         &self,
         track: &Track<'_>,
@@ -192,29 +192,50 @@ impl<'a> Face<'a> {
         let defined = spread(branch.feet);
         // What a disk is uncertain by when it is divided by so little.
         let error = TIE_ERROR / defined.max(TIE_ERROR);
-        let mut best = (defined, branch.third);
+        let (three, [f0, f1, f2]) = ([0, 1, branch.third], branch.feet);
+        let mut best = (defined, [0; 3]);
         self.near_disk(sub, branch.disk, error, |i| {
             let other = &graph.pieces[sub.get(self.slots, i).piece as usize].piece;
             let site = &self.sites[other.site as usize];
-            if i >= 2 && (site.carrier_distance(branch.disk.center).0 - branch.disk.radius).abs() <= error {
+            if !three.contains(&i)
+                && (site.carrier_distance(branch.disk.center).0 - branch.disk.radius).abs() <= error
+            {
                 let foot = foot_of(site, branch.disk.center, &other.from, &other.to);
-                let spread = spread([branch.feet[0], branch.feet[1], foot]);
-                if spread > best.0 {
-                    best = (spread, i);
+                for (pair, feet) in [([0, 1], [f0, f1]), ([0, 2], [f0, f2]), ([1, 2], [f1, f2])] {
+                    let spread = spread([feet[0], feet[1], foot]);
+                    if spread > best.0 {
+                        best = (spread, [three[pair[0]], three[pair[1]], i]);
+                    }
                 }
             }
         });
-        if best.1 == branch.third {
-            return None;
-        }
-        let piece = |i: usize| &graph.pieces[sub.get(self.slots, i).piece as usize].piece;
-        let t = equal_reach(self.sites, track, piece(1), piece(best.1), 0.0);
-        let probe = track.at(t);
-        let reach = [1, best.1].map(|i| track.reach(self.sites, piece(i), &probe).0);
-        let other = self.branch(track, &probe, reach[0].min(reach[1]), best.1, graph, sub);
+        let tied = best.1;
+        let other = match tied {
+            [_, 0, _] => return None,
+            [0, 1, _] => self.tangent_to(track, tied[2], graph, sub),
+            _ => self.polished_branch(branch, tied, graph, sub),
+        };
         let intrusion = |b: &Branch| self.intrusion(sub, b.disk, error, graph);
-        let touches = self.touches(sub, other.disk, best.1, graph);
+        let touches = self.touches(sub, other.disk, tied, graph)
+            && (other.third == tied[2] || self.touches(sub, other.disk, three, graph));
         (touches && intrusion(&other) <= intrusion(branch)).then_some(other)
+    }
+
+    /// The branch of the first piece, the second and another one.
+    fn tangent_to(&self, track: &Track<'_>, third: usize, graph: &Graph, sub: &SubFace) -> Branch {
+        let piece = |i: usize| &graph.pieces[sub.get(self.slots, i).piece as usize].piece;
+        let t = equal_reach(self.sites, track, piece(1), piece(third), 0.0);
+        let reach = common_reach(self.sites, track, t, [piece(1), piece(third)]);
+        self.branch(track, &track.at(t), reach, third, graph, sub)
+    }
+
+    /// A branch moved to the disk that touches three other pieces.
+    fn polished_branch(&self, branch: &Branch, tied: [usize; 3], graph: &Graph, sub: &SubFace) -> Branch {
+        let piece = |i: usize| &graph.pieces[sub.get(self.slots, i).piece as usize].piece;
+        let disk = polished(tied.map(|i| &self.sites[piece(i).site as usize]), branch.disk);
+        let feet = [0, 1, branch.third]
+            .map(|i| foot_of(&self.sites[piece(i).site as usize], disk.center, &piece(i).from, &piece(i).to));
+        Branch { disk, feet, third: branch.third }
     }
 
     /// How far pieces of the face reach into a disk.
@@ -346,6 +367,28 @@ fn equal_reach(sites: &[Site], track: &Track<'_>, after: &Piece, before: &Piece,
     falling_root(from, 1.0, difference)
 }
 
+/// Radius of the disk to both of two pieces at a place where they are equal. Next to a flat corner the reach
+/// to the other side goes from nothing to infinity within a few roundings of the place: then that to the
+/// piece that does not is the one.
+fn common_reach(sites: &[Site], track: &Track<'_>, t: f64, pieces: [&Piece; 2]) -> f64 {
+    let reach = |t: f64| {
+        let probe = track.at(t);
+        pieces.map(|p| track.reach(sites, p, &probe).0)
+    };
+    let [a, b] = reach(t);
+    if (a - b).abs() <= TIE_ERROR || !(a.is_finite() && b.is_finite()) {
+        return a.min(b);
+    }
+    let (before, after) = (reach(t - f64::EPSILON), reach(t + f64::EPSILON));
+    let [steep_a, steep_b] = [0, 1].map(|i| (after[i] - before[i]).abs());
+    match steep_a.partial_cmp(&steep_b) {
+        Some(Ordering::Less) => a,
+        Some(Ordering::Greater) => b,
+        // Infinite on both sides, which has no difference, or equal.
+        _ => a.min(b),
+    }
+}
+
 /// Where a function falls through zero between two places; it need not be continuous.
 pub(crate) fn falling_root(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
     let (mut at_low, mut at_high, mut side) = (1.0, -1.0, 0);
@@ -389,6 +432,10 @@ fn polished(sites: [&Site; 3], mut disk: UnitDisk) -> UnitDisk {
         // n_i . step - dr = e_i; differences leave two equations in the step.
         let (a, b) = (n1 - n0, n2 - n0);
         let det = a.cross(b);
+        // What is left may be round-off, and divided by little it is no step.
+        if worst(&now) <= TIE_ERROR && det.abs() < WELL_SPREAD {
+            break;
+        }
         let step = Vector {
             x: ((e1 - e0) * b.y - (e2 - e0) * a.y) / det,
             y: ((e2 - e0) * a.x - (e1 - e0) * b.x) / det,

@@ -77,7 +77,7 @@ fn shoot(sites: &[Site], bvh: &Bvh, joint: u32, hints: &Hints) -> Shot {
     let try_site = |best: &mut Shot, i: u32| -> bool {
         let (radius, contact) = touch(Span::whole(&sites[i as usize]), &probe);
         let shot = Shot { radius, site: i, contact };
-        if !is_better(sites, &shot, best) {
+        if !is_better(sites, &probe, &shot, best) {
             return false;
         }
         let shrunk = radius < best.radius;
@@ -109,9 +109,12 @@ const RADIUS_ERROR: f64 = 16.0 * f64::EPSILON;
 /// Whether a shot holds the disk back more than another. Next to the end of a site, the radius to the
 /// contact and to the end differ by the square of their distance, which round-off hides long before
 /// that distance: there the tangent contact is the one, or contacts would be off by its root.
-fn is_better(sites: &[Site], shot: &Shot, best: &Shot) -> bool {
-    if best.site == NONE || best.contact == Contact::Whole {
+fn is_better(sites: &[Site], probe: &Probe, shot: &Shot, best: &Shot) -> bool {
+    if best.site == NONE {
         return shot.radius < best.radius;
+    }
+    if best.contact == Contact::Whole {
+        return shot.radius < best.radius && reaches_into(&sites[shot.site as usize], probe, best.radius);
     }
     let (here, there) = (&sites[shot.site as usize], &sites[best.site as usize]);
     let are_neighbors = here.vertices.iter().any(|v| there.vertices.contains(v));
@@ -121,6 +124,12 @@ fn is_better(sites: &[Site], shot: &Shot, best: &Shot) -> bool {
     }
     let error = RADIUS_ERROR * best.radius;
     shot.radius < best.radius + if own > other { error } else { -error }
+}
+
+/// Whether a site reaches into the disk at a probe by more than round-off. Into a disk that osculates an arc
+/// other arcs of the same circle do not: their touching disks are whatever round-off makes of them.
+fn reaches_into(site: &Site, probe: &Probe, radius: f64) -> bool {
+    site.distance(probe.center(radius)) < radius - site.error
 }
 
 /// Which of two contacts in nearly one place tells where it really is.

@@ -9,7 +9,7 @@ use super::frame::Frame;
 use super::site::{Foot, Joint, NONE, Site};
 use super::splice::{Drawn, TANGENT_ROUNDINGS, place_key, splice};
 use super::{SiteKind, SiteRef};
-use crate::boundary::Pocket;
+use crate::boundary::{Pocket, TOUCHING_ULPS};
 use crate::geom::{Point, Vector};
 use std::collections::HashMap;
 use std::f64::consts::FRAC_PI_2;
@@ -205,6 +205,8 @@ struct Part {
     /// Length of the chord that its normals come from, for their round-off: that of the element it is a
     /// part of, or of a longer one that lent it its direction.
     chord: f64,
+    /// Length of the chord of its own element.
+    own_chord: f64,
     /// Angle that it may turn by unseen: near the round-off, an arc is drawn straight.
     unseen: f64,
     /// Whether it is the last part of its element.
@@ -232,7 +234,7 @@ fn add_parts(drawn: &Drawn, whole: f64, parts: &mut Vec<Part>) {
     let (curvature, chord) = (e.curvature(), e.chord().length());
     let start = Foot { point: e.start, normal: n0 };
     let end = Foot { point: e.end, normal: n1 };
-    let mut part = Part { start, end, curvature, source, chord, unseen: 0.0, last: true };
+    let mut part = Part { start, end, curvature, source, chord, own_chord: chord, unseen: 0.0, last: true };
     let count = if e.bulge.abs() <= whole {
         1
     } else {
@@ -321,8 +323,9 @@ fn share_normals(parts: &mut [Part], noise: f64) -> f64 {
     for i in 0..parts.len() {
         let j = (i + 1) % parts.len();
         if joint_between(&parts[i], &parts[j], noise) == (Joint::Smooth { same_circle: false }) {
-            let normal =
-                if parts[i].chord >= parts[j].chord { parts[i].end.normal } else { parts[j].start.normal };
+            // A lent direction gives way to one of a long element's own.
+            let before_is_longer = parts[i].own_chord >= parts[j].own_chord;
+            let normal = if before_is_longer { parts[i].end.normal } else { parts[j].start.normal };
             blur = blur.max(parts[i].end.normal.cross(parts[j].start.normal).abs());
             parts[i].end.normal = normal;
             parts[j].start.normal = normal;
@@ -354,10 +357,9 @@ fn joint_between(part: &Part, after: &Part, noise: f64) -> Joint {
     let (turn, ahead) = (n0.cross(n1), n0.dot(n1));
     let is_corner = turn.abs() > direction_error(part, after, noise) + part.unseen + after.unseen;
     // Two elements that turn back by `turn` less than half a turn and bend toward each other by `bend` meet
-    // again at `2 turn / bend`. Between, they lie apart by up to `turn^2 / (2 bend)`.
+    // again at `2 turn / bend`. Between, they overlap by up to `turn^2 / (2 bend)`, and a pocket may.
     let bend = part.curvature + after.curvature;
-    let is_cusp =
-        ahead < 0.0 && turn * bend > 0.0 && turn * turn <= 2.0 * bend.abs() * TANGENT_ROUNDINGS * noise;
+    let is_cusp = ahead < 0.0 && turn * bend > 0.0 && turn * turn <= 2.0 * bend.abs() * TOUCHING_ULPS * noise;
     if is_corner && !is_cusp {
         if turn > 0.0 { Joint::Convex } else { Joint::Cone }
     } else if ahead > 0.0 {

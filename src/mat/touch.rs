@@ -113,15 +113,9 @@ fn tangent(span: &Span<'_>, probe: &Probe) -> Option<f64> {
     let w1 = (probe.base - span.to.point) + probe.offset;
     let near_start = w0.length_squared() <= w1.length_squared();
     let (w, n) = if near_start { (w0, span.from.normal) } else { (w1, span.to.normal) };
-    let numerator = 2.0 * w.dot(n) - k * w.length_squared();
-    let denominator = (probe.normal - n).length_squared() + 2.0 * k * probe.normal.dot(w);
-    if !(numerator > 0.0 && denominator > 0.0) {
-        return None;
-    }
-    let r = numerator / denominator;
-    let f = 1.0 - k * r;
-    if f <= 0.0 {
-        return None;
+    let (r, f) = tangent_to_carrier(w, n, k, probe.normal)?;
+    if f <= DIRECTION_ERROR {
+        return Some(r);
     }
     // The contact, seen from the nearer end: c - A = w + r N, its normal is (n - k (c - A)) / f.
     let to_center = w + probe.normal * r;
@@ -130,6 +124,43 @@ fn tangent(span: &Span<'_>, probe: &Probe) -> Option<f64> {
     let (q0, q1) = if near_start { (q, q - chord) } else { (q + chord, q) };
     let inside = q0.dot(span.from.normal.right()) >= 0.0 && q1.dot(span.to.normal.right()) <= 0.0;
     inside.then_some(r)
+}
+
+/// Share of the radius of an arc, the rest of which a disk takes up, below which `1 - k r` is computed
+/// apart: two bits are lost where it is a quarter.
+const NEARLY_FULL: f64 = 0.25;
+
+/// Round-off of sums and products of a few unit vectors: eight roundings. Shorter differences of normals
+/// have no direction, and the disk touches all of the arc.
+const DIRECTION_ERROR: f64 = 8.0 * f64::EPSILON;
+
+/// Radius `r` of the disk tangent to a carrier, as the head of this file has it, and `f = 1 - k r`.
+///
+/// A disk nearly as large as a hollow arc hangs on `f`, the distance of their centers over the radius of the
+/// arc: it touches to round-off divided by `f`, if `f` is what cancellation leaves. With `g = N - n + k w`
+/// (`1 / k` times that is the way between the centers of the arc and of a disk as large) it is `|g|^2` over
+/// the same denominator, which is `2 g.N`. Where that is round-off of its terms, the disk may be as large as
+/// the arc.
+#[inline]
+fn tangent_to_carrier(w: Vector, n: Vector, k: f64, normal: Vector) -> Option<(f64, f64)> {
+    let between = normal - n;
+    let denominator = between.length_squared() + 2.0 * k * normal.dot(w);
+    if denominator <= 0.0 {
+        return None;
+    }
+    if k > 0.0 {
+        let apart = (between + w * k).length_squared();
+        if apart < NEARLY_FULL * (denominator + DIRECTION_ERROR) {
+            let terms = (between.length_squared() + k * k * w.length_squared()).sqrt();
+            let f = apart / (denominator + DIRECTION_ERROR * terms);
+            if f < NEARLY_FULL {
+                return Some(((1.0 - f) / k, f));
+            }
+        }
+    }
+    let r = (2.0 * w.dot(n) - k * w.length_squared()) / denominator;
+    let f = 1.0 - k * r;
+    (r > 0.0 && f > 0.0).then_some((r, f))
 }
 
 /// Where a disk touches a site, held between two feet of it.

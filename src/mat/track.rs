@@ -1,6 +1,6 @@
 //! The disks tangent to one piece of the boundary, as a function of the place on it.
 
-use super::piece::Piece;
+use super::piece::{Piece, UnitDisk};
 use super::site::{NONE, Site};
 use super::touch::{Contact, Probe, Span, touch};
 use crate::geom::Vector;
@@ -76,4 +76,19 @@ impl<'a> Track<'a> {
         let site = &sites[other.site as usize];
         touch(Span { site, from: &other.from, to: &other.to, vertices: other.vertices }, probe)
     }
+}
+
+/// A disk well inside of the edge between two pieces: over the middle of the longer one, or of the other if
+/// that disk does not touch the shorter one between its ends. None where neither does: then round-off hides
+/// where the edge runs between its ends.
+pub(super) fn inner_disk(sites: &[Site], [a, b]: [&Piece; 2]) -> Option<UnitDisk> {
+    let extent = |p: &Piece| p.from.point.distance(p.to.point);
+    let (longer, shorter) = if extent(b) > extent(a) { (b, a) } else { (a, b) };
+    [(longer, shorter), (shorter, longer)].into_iter().find_map(|(along, across)| {
+        let track = Track::of(sites, along);
+        let probe = track.at(0.5);
+        let (radius, contact) = track.reach(sites, across, &probe);
+        (contact == Contact::Inside && radius.is_finite())
+            .then(|| UnitDisk { center: probe.center(radius), radius })
+    })
 }

@@ -1,0 +1,124 @@
+//! Pockets that are a tie, or a cusp, or a circle, but for the last digits: smallest forms of what the
+//! fuzzer and the long runs have found.
+
+use medial::{ArcSpline, Pocket, Tolerance, verify};
+
+type Loop<'a> = &'a [(f64, f64, f64)];
+
+/// Levels per pocket, as shares of the largest radius.
+const LEVELS: [f64; 5] = [0.03, 0.25, 0.5, 0.75, 0.97];
+
+/// The axis passes its certificate and its levels are right; `None` if no axis is right for the loops.
+fn fault(loops: &[Loop<'_>]) -> Option<String> {
+    let loops = loops.iter().map(|l| ArcSpline::closed(l.iter().copied())).collect();
+    let pocket = match Pocket::from_loops(loops, Tolerance::MM) {
+        Ok(pocket) => pocket,
+        Err(e) => return Some(e.to_string()),
+    };
+    let mat = match pocket.medial_axis() {
+        Ok(mat) => mat,
+        Err(e) => return Some(e.to_string()),
+    };
+    if let Err(e) = mat.check() {
+        return Some(e.to_string());
+    }
+    LEVELS.iter().find_map(|share| {
+        let d = share * mat.largest_disk().radius;
+        let level = mat.level(d);
+        let all: Vec<ArcSpline> = level.loops.into_iter().chain(level.ridges).collect();
+        let report = verify::level(pocket.loops(), d, &all);
+        (!report.is_right()).then(|| format!("level {d}: {report:?}"))
+    })
+}
+
+fn assert_right(cases: &[(&str, &[Loop<'_>])]) {
+    let faults: Vec<String> =
+        cases.iter().filter_map(|(name, loops)| Some(format!("{name}: {}", fault(loops)?))).collect();
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+/// A wall that turns back on itself and overlaps by some ten roundings is a corner of no angle. Taken for a
+/// reflex one, its disks touched nothing.
+#[test]
+fn a_cusp_that_overlaps_by_round_off_is_a_corner() {
+    assert_right(&[
+        (
+            "half circle and segment",
+            &[&[(952.201365, 51.0, -1.0), (952.2014, 102.9407, 0.0), (592.0, 102.9407, 1.0)]],
+        ),
+        (
+            "two arcs far away",
+            &[&[
+                (950682.009808, 950682.009797, -0.4),
+                (950682.009792, 950682.009781, 1.0),
+                (950682.009781, 950682.01, 0.0),
+            ]],
+        ),
+    ]);
+}
+
+/// Two hollow arcs of nearly the same circle: a disk as large as they are touches them nearly everywhere,
+/// and its radius came with half of its digits.
+#[test]
+fn disks_nearly_as_large_as_an_arc_have_all_their_digits() {
+    assert_right(&[
+        ("two half circles", &[&[(3.0, 0.0, 0.99999998), (-3.0, 0.0, 0.99999998)]]),
+        (
+            "half circle and less than one",
+            &[&[
+                (60.0, 22.0, 1.0417e-4),
+                (59.99999895833329, 22.004999999995903, 0.9995834201),
+                (36.00000104166671, 22.004999999995903, 1.0417e-4),
+                (36.0, 22.0, 1.0),
+            ]],
+        ),
+        ("three arcs", &[&[(6.0, 0.0, 0.0), (54.0, -0.01, 1.0), (54.0, 12.0, 1.0)]]),
+        (
+            "slot with a long and a short wall",
+            &[&[(47.0, 36.0, 0.0), (33.0, 36.0, 0.0), (33.0, 14.0, 1.0), (47.0, 14.005, 0.0)]],
+        ),
+        (
+            "circle with a short arc",
+            &[&[
+                (7.736474369757218e-4, -2.578824789907e-4, 0.4142135136621),
+                (2.578825647674e-4, 2.578824789942686e-4, 4.157743024e-8),
+                (2.578824789907e-4, 2.57882478994275e-4, 0.414213562373095),
+                (-2.57882478994e-4, -2.578824789907e-4, 1.0),
+            ]],
+        ),
+    ]);
+}
+
+/// A flat corner and two walls at one distance: three of the four hardly tell where the disk is.
+#[test]
+fn a_tie_at_a_flat_corner_is_told_by_the_walls() {
+    let bulge = -0.41421356237354656;
+    assert_right(&[(
+        "round island between walls",
+        &[
+            &[(7.5, -2.0, 0.0), (7.5, 10.0, 0.0), (-17.5, 10.0, 0.0), (-17.5, -2.0, 0.0)],
+            &[(1.5, 4.0, bulge), (-1.5000000000046256, 1.0, bulge), (-4.5, 4.000000000004626, -1.0)],
+        ],
+    )]);
+}
+
+/// The tip of a hair-thin ellipse: its arcs, as short as round-off, take their direction from one of the
+/// walls, and must not hand it on to the other.
+#[test]
+fn a_lent_direction_is_not_handed_on() {
+    let tip = [
+        (3.676997749590135e-17, -1.2999999999986999e-5, 0.2265387889055347),
+        (8.450335485956494e-17, -1.2999999999887052e-5, 1.1378888926236482e-6),
+        (2.3379678676139025e-11, -5.687500000010777e-6, 4.607158371614955e-7),
+        (2.3379678676139035e-11, 5.687500000010763e-6, 1.1378888926083516e-6),
+        (8.450357855489344e-17, 1.299999999988705e-5, 0.22654075540630195),
+        (3.676985131516466e-17, 1.2999999999986999e-5, 0.35355702849010895),
+        (-3.676997749271728e-17, 1.2999999999986999e-5, 0.22653729052244723),
+        (-8.450370473472277e-17, 1.2999999999887052e-5, 1.137888892599725e-6),
+        (-2.3379678676139025e-11, 5.687500000010776e-6, 4.60715837161496e-7),
+        (-2.3379678676139025e-11, -5.6875000000107744e-6, 1.137888892608353e-6),
+        (-8.450357855166226e-17, -1.299999999988705e-5, 0.2265407554065034),
+        (-3.676985131198058e-17, -1.2999999999986999e-5, 0.35355702849010906),
+    ];
+    assert_right(&[("ellipse", &[&tip])]);
+}
