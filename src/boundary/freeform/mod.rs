@@ -26,11 +26,11 @@
 //! # Ok::<(), medial::boundary::freeform::CurveError>(())
 //! ```
 
+mod apex;
 mod bernstein;
 mod biarc;
 mod bound;
 mod chords;
-mod crest;
 mod cuts;
 mod density;
 mod drawn;

@@ -10,8 +10,8 @@
 //! another picture than the cuts all the same, the nearest cut gets a node; where that does not help,
 //! its neighborhood gets a more careful scheme.
 
+use super::apex::{ApexArc, Room, apex_arc};
 use super::biarc::{Arc, Node};
-use super::crest::{Crest, Room, crest};
 use super::cuts::{CutKind, Stretch};
 use super::spiral::{Cell, Fitter, Scheme};
 use super::spread::Ends;
@@ -23,7 +23,7 @@ use std::ops::Range;
 const MAX_ROUNDS: usize = 12;
 
 /// An arc over an apex reaches over at most this part of the way to the next apices and to the ends.
-const CREST_SHARE: f64 = 0.4375;
+const APEX_SHARE: f64 = 0.4375;
 
 /// Arcs over an apex are laid within the half of the tolerance, again and again, so many times at most
 /// until those beside them fit.
@@ -51,7 +51,7 @@ pub(super) fn fit_run(
 ) -> Option<()> {
     if !matches!(scheme, Scheme::Fewest | Scheme::Tilted) {
         return run.stretches.chunks(1).try_for_each(|s| {
-            let ends = Ends { nodes: ends(track, s), crests: [false; 2], singles: [false; 2] };
+            let ends = Ends { nodes: ends(track, s), apex_arcs: [false; 2], singles: [false; 2] };
             fitter.fit(track, &ends, (tolerance, scheme), out)
         });
     }
@@ -62,7 +62,7 @@ pub(super) fn fit_run(
     for round in 0..MAX_ROUNDS {
         out.truncate(begin);
         if round + 1 == MAX_ROUNDS {
-            plan.give_up_crests();
+            plan.give_up_apex_arcs();
         }
         laid.lay(work, &plan)?;
         if !laid.lost.is_empty() && plan.improve(&laid.lost, run, track) {
@@ -118,7 +118,7 @@ enum At {
     /// Nothing in particular.
     None,
     /// An arc over an apex, within half the tolerance as often as this says.
-    Crest(i32),
+    Apex(i32),
     /// A node.
     Node,
 }
@@ -136,7 +136,7 @@ impl Plan {
     fn of(run: Run) -> Plan {
         let n = run.stretches.len();
         let mut nodes: Vec<At> =
-            (0..=n).map(|i| if run.is_apex(i) { At::Crest(0) } else { At::None }).collect();
+            (0..=n).map(|i| if run.is_apex(i) { At::Apex(0) } else { At::None }).collect();
         for end in [0, n] {
             nodes[end] = if nodes[end] == At::None { At::Node } else { nodes[end] };
         }
@@ -144,9 +144,9 @@ impl Plan {
     }
 
     /// Makes all arcs over apices nodes.
-    fn give_up_crests(&mut self) {
+    fn give_up_apex_arcs(&mut self) {
         for at in &mut self.nodes {
-            *at = if matches!(at, At::Crest(_)) { At::Node } else { *at };
+            *at = if matches!(at, At::Apex(_)) { At::Node } else { *at };
         }
     }
 
@@ -161,15 +161,15 @@ impl Plan {
             let place = track.place(u);
             let far = |i: usize| (track.place(run.at(i)) - place).length_squared();
             let nearest = if far(after) < far(after - 1) { after } else { after - 1 };
-            // A crest too wide is what bends those beside it the wrong way.
+            // An arc too wide over an apex is what bends those beside it the wrong way.
             let before = (0..after).rev().find(|&i| run.is_apex(i));
             let behind = (after..=n).find(|&i| run.is_apex(i));
-            let crest = [before, behind].into_iter().flatten().filter(|&i| nodes[i] != At::Node);
-            let first = crest.min_by(|&i, &j| far(i).total_cmp(&far(j)));
+            let apex_arc = [before, behind].into_iter().flatten().filter(|&i| nodes[i] != At::Node);
+            let first = apex_arc.min_by(|&i, &j| far(i).total_cmp(&far(j)));
             let first = first.or_else(|| Some(nearest).filter(|&i| nodes[i] != At::Node));
             if let Some(i) = first {
                 self.nodes[i] = match nodes[i] {
-                    At::Crest(halvings) if halvings < MAX_HALVINGS => At::Crest(halvings + 1),
+                    At::Apex(halvings) if halvings < MAX_HALVINGS => At::Apex(halvings + 1),
                     _ => At::Node,
                 };
                 if i == 0 || i == n {
@@ -199,13 +199,13 @@ struct Work<'a, 'b> {
 
 impl Work<'_, '_> {
     /// The arc over the apex where stretch `i > 0` begins, if there is room for one.
-    fn crest(&self, i: usize, halvings: i32) -> Option<Crest> {
+    fn apex_arc(&self, i: usize, halvings: i32) -> Option<ApexArc> {
         let u = self.run.at(i);
         let limits = self.run.neighbors(i);
         let place = self.track.place(u);
         let way = limits.map(|limit| (self.track.place(limit) - place).length());
-        let room = Room { limits, most: CREST_SHARE * way[0].min(way[1]) };
-        crest(self.track, u, &room, self.tolerance * 0.5f64.powi(halvings))
+        let room = Room { limits, most: APEX_SHARE * way[0].min(way[1]) };
+        apex_arc(self.track, u, &room, self.tolerance * 0.5f64.powi(halvings))
     }
 }
 
@@ -227,7 +227,7 @@ struct Laid {
     cells: Vec<Cell>,
     parts: Vec<Part>,
     /// Arcs over apices.
-    crests: BTreeMap<(usize, i32), Option<Crest>>,
+    apex_arcs: BTreeMap<(usize, i32), Option<ApexArc>>,
     /// Where arcs over apices leave no way for biarcs beside them.
     lost: Vec<f64>,
 }
@@ -244,11 +244,11 @@ impl Laid {
             }
             let ends = [from, to].map(|i| self.at(i, work, plan));
             parts.push(self.part(from..to, ends, work, plan.care[from])?);
-            if let At::Crest(halvings) = ends[1]
-                && let Some(Some(crest)) = self.crests.get(&(to, halvings))
+            if let At::Apex(halvings) = ends[1]
+                && let Some(Some(apex_arc)) = self.apex_arcs.get(&(to, halvings))
             {
                 let begin = self.cells.len();
-                self.cells.push(crest.cell);
+                self.cells.push(apex_arc.cell);
                 let cells = begin..begin + 1;
                 parts.push(Part { stretches: to..to, care: 0, ends: [ends[1]; 2], cells });
             }
@@ -261,15 +261,15 @@ impl Laid {
     /// What there is where stretch `i` begins: a node where there is no room for anything else.
     fn at(&mut self, i: usize, work: &Work, plan: &Plan) -> At {
         match plan.nodes[i] {
-            At::Crest(halvings) if self.crest(i, halvings, work).is_some() => At::Crest(halvings),
+            At::Apex(halvings) if self.apex_arc(i, halvings, work).is_some() => At::Apex(halvings),
             _ => At::Node,
         }
     }
 
     /// The arc over the apex where stretch `i` begins; the first of a ring counts as the last.
-    fn crest(&mut self, i: usize, halvings: i32, work: &Work) -> Option<Crest> {
+    fn apex_arc(&mut self, i: usize, halvings: i32, work: &Work) -> Option<ApexArc> {
         let i = if i == 0 { work.run.stretches.len() } else { i };
-        *self.crests.entry((i, halvings)).or_insert_with(|| work.crest(i, halvings))
+        *self.apex_arcs.entry((i, halvings)).or_insert_with(|| work.apex_arc(i, halvings))
     }
 
     /// The part over some stretches, laid before if nothing has changed.
@@ -283,21 +283,21 @@ impl Laid {
             return Some(self.parts[i].clone());
         }
         let mut nodes = ends(work.track, &work.run.stretches[range.clone()]);
-        if let At::Crest(halvings) = at[0] {
-            let crest = self.crest(range.start, halvings, work)?;
+        if let At::Apex(halvings) = at[0] {
+            let apex_arc = self.apex_arc(range.start, halvings, work)?;
             let turn = if range.start == 0 { work.run.end() - work.run.at(0) } else { 0.0 };
-            nodes[0] = Node { u: crest.nodes[1].u - turn, ..crest.nodes[1] };
+            nodes[0] = Node { u: apex_arc.nodes[1].u - turn, ..apex_arc.nodes[1] };
         }
-        if let At::Crest(halvings) = at[1] {
-            nodes[1] = self.crest(range.end, halvings, work)?.nodes[0];
+        if let At::Apex(halvings) = at[1] {
+            nodes[1] = self.apex_arc(range.end, halvings, work)?.nodes[0];
         }
-        let crests = at.map(|at| matches!(at, At::Crest(_)));
-        let singles = at.map(|at| matches!(at, At::Crest(0 | 1)));
+        let apex_arcs = at.map(|at| matches!(at, At::Apex(_)));
+        let singles = at.map(|at| matches!(at, At::Apex(0 | 1)));
         let begin = self.cells.len();
-        let ends = Ends { nodes, crests, singles };
+        let ends = Ends { nodes, apex_arcs, singles };
         let laid = work.fitter.fit(work.track, &ends, (work.tolerance, CAREFUL[care]), &mut self.cells);
         if laid.is_none() {
-            let lost = [range.start, range.end].into_iter().zip(crests).filter(|(_, crest)| *crest);
+            let lost = [range.start, range.end].into_iter().zip(apex_arcs).filter(|(_, apex_arc)| *apex_arc);
             let before = self.lost.len();
             self.lost.extend(lost.map(|(i, _)| work.run.at(i)));
             if self.lost.len() == before {

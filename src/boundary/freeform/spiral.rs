@@ -77,7 +77,7 @@ impl Fitter {
         if !halves && self.spread.run(track, ends, &goal, out).is_some() {
             return Some(());
         }
-        if !halves && ends.crests != [false; 2] {
+        if !halves && ends.apex_arcs != [false; 2] {
             return None;
         }
         self.halve(track, ends.nodes, (tolerance, joint), out)

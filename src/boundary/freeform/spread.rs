@@ -70,7 +70,7 @@ pub(super) struct Ends {
     /// The nodes.
     pub nodes: [Node; 2],
     /// Whether an arc over an apex ends there.
-    pub crests: [bool; 2],
+    pub apex_arcs: [bool; 2],
     /// Whether one arc may be alone there.
     pub singles: [bool; 2],
 }
@@ -315,7 +315,7 @@ mod tests {
         let pieces = quarter.pieces().unwrap();
         let track = Track::new(&pieces);
         let nodes = [track.cut_node(0.0, Side::After), track.cut_node(1.0, Side::Before)];
-        let ends = Ends { nodes, crests: [false; 2], singles: [false; 2] };
+        let ends = Ends { nodes, apex_arcs: [false; 2], singles: [false; 2] };
         let goal = Goal { tolerance: 1e-7, joint: Joint::MIDDLE, tilted: false, constant: 2.0 / 81.0 };
         let mut cells = Vec::new();
         Spread::default().run(&track, &ends, &goal, &mut cells).unwrap();

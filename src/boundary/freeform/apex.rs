@@ -32,7 +32,7 @@ const MAX_HALF_TURN: f64 = 0.75;
 
 /// An arc over an apex with the nodes at its ends.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Crest {
+pub(super) struct ApexArc {
     /// The arc, alone in its cell.
     pub cell: Cell,
     /// Its ends, with its tangents.
@@ -49,7 +49,7 @@ pub(super) struct Room {
 }
 
 /// The arc over the apex at parameter `u`, if there is room for one.
-pub(super) fn crest(track: &Track, u: f64, room: &Room, tolerance: f64) -> Option<Crest> {
+pub(super) fn apex_arc(track: &Track, u: f64, room: &Room, tolerance: f64) -> Option<ApexArc> {
     let apex = track.cut_node(u, Side::After);
     let most = (MAX_HALF_TURN / apex.curvature.abs()).min(room.most);
     let ends = |reach: f64| room.limits.map(|limit| track.node(track.beyond_distance(&apex, reach, limit)));
@@ -91,7 +91,8 @@ pub(super) fn crest(track: &Track, u: f64, room: &Room, tolerance: f64) -> Optio
     let cell = Cell::of_one(track, arc, [nodes[0].u, nodes[1].u], 0.0);
     let [a, b] = nodes;
     let nodes = [Node { tangent: arc.start_tangent(), ..a }, Node { tangent: arc.end_tangent(), ..b }];
-    (cell.distance != Distance::UNKNOWN && cell.distance.bound <= tolerance).then_some(Crest { cell, nodes })
+    (cell.distance != Distance::UNKNOWN && cell.distance.bound <= tolerance)
+        .then_some(ApexArc { cell, nodes })
 }
 
 /// The arc between two nodes that passes the apex at a distance, which makes all errors larger.
