@@ -9,7 +9,7 @@ use super::piece::Bend;
 use super::track::Track;
 
 /// Precision of the integral over a leaf, in biarcs.
-const PRECISION: f64 = 1.0 / 67_108_864.0;
+const PRECISION: f64 = 1.0 / 16_777_216.0;
 
 /// Halvings of a piece at most; a root of the density, like that at an apex, takes most of them.
 const MAX_HALVINGS: u32 = 24;
@@ -20,8 +20,9 @@ const LEAST_HALVINGS: u32 = 1;
 /// Steps of the search within a leaf.
 const MAX_STEPS: usize = 60;
 
-/// A step of the search of this part of a leaf is the last.
-const CLOSE_ENOUGH: f64 = 16.0 * f64::EPSILON;
+/// A step of Newton's method as short as this, in quarters of a leaf, is the last: it squares to less than
+/// round-off of a parameter.
+const CLOSE_ENOUGH: f64 = 1e-7;
 
 /// A stretch of parameters in one piece with the quartic that is the density there.
 #[derive(Clone, Copy, Debug)]
