@@ -102,7 +102,7 @@ impl Spread {
             };
             let slants = self.slants(track, ends, goal, (layout, total))?;
             let spare = self.widen(layout, slants) - total;
-            if many && spare < SPARE * total {
+            if (many || layout.biarcs > 2) && spare < if many { SPARE * total } else { 0.0 } {
                 arcs += 1;
                 continue;
             }
