@@ -13,7 +13,7 @@ pub(super) const MANY: f64 = 3.0;
 
 /// Biarcs that are many are made shorter by this part than the density says, as it is not constant along
 /// one.
-pub(super) const SPARE: f64 = 1.0 / 96.0;
+pub(super) const SPARE: f64 = 1.0 / 64.0;
 
 /// A biarc turns by about this angle at most where the derivative of the curvature does not limit it,
 /// in radians. The tangents of a biarc must be within a right angle of its chord; so the curve need not

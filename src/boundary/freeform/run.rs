@@ -13,6 +13,7 @@
 use super::apex::{ApexArc, Room, apex_arc};
 use super::biarc::Node;
 use super::cuts::{CutKind, Stretch};
+use super::density::Density;
 use super::layout::{Ends, Lost};
 use super::order::wrong_places;
 use super::spiral::{Cell, Fitter, Scheme};
@@ -234,6 +235,14 @@ struct Draft {
     care: usize,
     at: [At; 2],
     ends: Ends,
+    /// The density of biarcs along it, once that is known.
+    density: Option<Density>,
+}
+
+impl Draft {
+    fn is_like(&self, other: &Draft) -> bool {
+        (&self.stretches, self.care, self.at) == (&other.stretches, other.care, other.at)
+    }
 }
 
 /// The parts of a run as they are laid, kept while their plan does not change.
@@ -245,21 +254,25 @@ struct Laid {
     apex_arcs: BTreeMap<(usize, i32), Option<ApexArc>>,
     /// Where arcs over apices leave no way for biarcs beside them.
     lost: Vec<f64>,
+    /// Parts that were not laid for that.
+    drafts: Vec<Draft>,
 }
 
 impl Laid {
     /// Lays the parts that the plan has changed, or none while some arc over an apex is lost anyway.
     fn lay(&mut self, work: &mut Work, plan: &Plan) -> Option<()> {
         self.lost.clear();
-        let drafts = self.drafts(work, plan)?;
-        for draft in &drafts {
-            if self.known(draft).is_none() {
-                let checked =
-                    work.fitter.check(work.track, &draft.ends, (work.tolerance, CAREFUL[draft.care]));
+        let mut drafts = self.drafts(work, plan)?;
+        for draft in &mut drafts {
+            if draft.density.is_none() && self.known(draft).is_none() {
+                let goal = (work.tolerance, CAREFUL[draft.care]);
+                let checked = work.fitter.check(work.track, &draft.ends, goal);
+                draft.density = Some(work.fitter.density());
                 self.note(draft, checked, work)?;
             }
         }
         if !self.lost.is_empty() {
+            self.drafts = drafts;
             return Some(());
         }
         let mut parts = Vec::with_capacity(2 * drafts.len());
@@ -282,7 +295,8 @@ impl Laid {
     /// The parts between nodes and arcs over apices.
     fn drafts(&mut self, work: &Work, plan: &Plan) -> Option<Vec<Draft>> {
         let n = work.run.stretches.len();
-        let mut drafts = Vec::new();
+        let mut before = std::mem::take(&mut self.drafts);
+        let mut drafts = Vec::with_capacity(before.len());
         let mut from = 0;
         for to in 1..=n {
             if to < n && plan.nodes[to] == At::None && plan.care[to] == plan.care[from] {
@@ -290,7 +304,13 @@ impl Laid {
             }
             let at = [from, to].map(|i| self.at(i, work, plan));
             let ends = self.ends(from..to, at, work)?;
-            drafts.push(Draft { stretches: from..to, care: plan.care[from], at, ends });
+            let mut draft = Draft { stretches: from..to, care: plan.care[from], at, ends, density: None };
+            if let Ok(old) = before.binary_search_by_key(&from, |d| d.stretches.start)
+                && before[old].is_like(&draft)
+            {
+                draft.density = before[old].density.take();
+            }
+            drafts.push(draft);
             from = to;
         }
         Some(drafts)
@@ -340,6 +360,8 @@ impl Laid {
         }
         let begin = self.cells.len();
         let goal = (work.tolerance, CAREFUL[draft.care]);
+        let mut draft = draft;
+        work.fitter.take(draft.density.take());
         let laid = work.fitter.fit(work.track, &draft.ends, goal, &mut self.cells);
         self.note(&draft, laid, work)?;
         let Draft { stretches, care, at, .. } = draft;

@@ -5,6 +5,7 @@
 
 use super::biarc::{Arc, Joint, Node, biarc};
 use super::bound::Distance;
+use super::density::Density;
 use super::layout::{Ends, Goal, Lost};
 use super::spread::Spread;
 use super::track::Track;
@@ -58,6 +59,16 @@ pub(super) struct Fitter {
 }
 
 impl Fitter {
+    /// The density of the part checked last.
+    pub fn density(&mut self) -> Density {
+        self.spread.density()
+    }
+
+    /// Takes the density of the part that is fitted next.
+    pub fn take(&mut self, density: Option<Density>) {
+        self.spread.take(density);
+    }
+
     /// Whether biarcs may fit, as far as that can be told before they are laid.
     pub fn check(
         &mut self,
@@ -65,10 +76,7 @@ impl Fitter {
         ends: &Ends,
         (tolerance, scheme): (f64, Scheme),
     ) -> Result<(), Lost> {
-        match ends.yields {
-            [false, false] => Ok(()),
-            _ => self.spread.check(track, ends, &Goal::of(scheme, tolerance)),
-        }
+        self.spread.check(track, ends, &Goal::of(scheme, tolerance))
     }
 
     /// Appends biarcs from one node to another, unless the limit on effort is reached, or nothing fits

@@ -43,6 +43,10 @@ const STEEPNESS: f64 = 1.4;
 /// Less than this is not made up for by a shorter arc.
 const LEAST_SLANT: f64 = 0.5;
 
+/// From a narrower cell at an end to the next, this part of what it is narrower by is left.
+const FADING: f64 = 2.0 / 3.0;
+const SHORT: usize = 4;
+
 /// A cell narrower by some part makes the next one err as if it were wider by this part of that.
 const NEXT_TO_SLANT: f64 = 0.25;
 
@@ -66,6 +70,8 @@ struct Judged {
 #[derive(Debug, Default)]
 pub(super) struct Spread {
     density: Density,
+    /// Whether that is the density of the part that comes next.
+    is_filled: bool,
     /// Shares of the integral of the density at nodes, and the corrected shares.
     marks: Vec<[f64; 2]>,
     /// How wide cells are to be, in biarcs.
@@ -81,8 +87,20 @@ pub(super) struct Spread {
 }
 
 impl Spread {
+    /// The density of the part checked last.
+    pub fn density(&mut self) -> Density {
+        std::mem::take(&mut self.density)
+    }
+
+    /// Takes the density of the part that comes next.
+    pub fn take(&mut self, density: Option<Density>) {
+        self.is_filled = density.is_some();
+        self.density = density.unwrap_or_default();
+    }
+
     /// Whether tangents at ends suit the biarcs beside them, if those ends may yield.
     pub fn check(&mut self, track: &Track, ends: &Ends, goal: &Goal) -> Result<(), Lost> {
+        self.is_filled = false;
         let Some(total) = self.fill(track, ends, goal) else { return Ok(()) };
         match Layout::of(first(total), ends) {
             Some(layout) => self.slants(track, ends, goal, (layout, total)).map(|_| ()),
@@ -131,7 +149,10 @@ impl Spread {
     fn fill(&mut self, track: &Track, ends: &Ends, goal: &Goal) -> Option<f64> {
         let chord = (ends.nodes[1].place - ends.nodes[0].place).length();
         let least = LEAST / if chord > 0.0 { chord } else { track.extent() };
-        let total = self.density.fill(track, &ends.nodes, |bend| goal.density(least, bend));
+        if !std::mem::take(&mut self.is_filled) {
+            self.density.fill(track, &ends.nodes, |bend| goal.density(least, bend));
+        }
+        let total = self.density.total();
         self.marks.clear();
         self.marks.extend([[0.0; 2], [total; 2]]);
         (total > 0.0 && total <= MAX_BIARCS as f64).then_some(total)
@@ -229,12 +250,13 @@ impl Spread {
     fn widen(&mut self, layout: Layout, slants: [f64; 2]) -> f64 {
         let [mut first, mut last] = slants.map(|slant| slant.clamp(LEAST_SLANT, 1.0).sqrt() - 1.0);
         let loss = NEXT_TO_SLANT * (first + last);
+        let fading = if layout.biarcs > SHORT { FADING } else { 0.5 };
         self.widths.clear();
         self.widths.resize(layout.biarcs, 1.0);
         for i in 0..layout.biarcs {
             self.widths[i] += first;
             self.widths[layout.biarcs - 1 - i] += last;
-            (first, last) = (0.5 * first, 0.5 * last);
+            (first, last) = (fading * first, fading * last);
         }
         (0..layout.biarcs).for_each(|i| self.widths[i] *= layout.width(i));
         self.widths.iter().sum::<f64>() + loss
