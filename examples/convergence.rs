@@ -48,6 +48,7 @@ struct Row {
     ours: usize,
     theirs: usize,
     least: f64,
+    away: Option<f64>,
     leaves: usize,
     apices: usize,
     looseness: f64,
@@ -78,26 +79,31 @@ fn page(curves: &[Curve], tables: &[Vec<Row>]) -> String {
          The tolerance is a part of the diagonal of the box. *Ratio* is the number of arcs over \
          `W / (192 eps)^(1/3)`, with `W` the integral of the cube root of the derivative of the curvature: \
          what any arcs need at least for small tolerances, even arcs that do not meet. Arcs that meet \
-         with common tangents need 1.155 times that. *S0* are the arcs by the scheme of Aichholzer et al., \
+         with common tangents need 1.155 times that. *Away* is the same without the arcs over apices and those \
+         beside them. *S0* are the arcs by the scheme of Aichholzer et al., \
          *Medial axis computation for planar free-form shapes*, 2009: osculating biarcs and halving. *Slope* is \
-         that of the logarithms over all tolerances from 1e-6 on, -1/3 in theory. *Leaves* are the extrema of \
+         that of the logarithms from one tolerance to another, -1/3 in theory. *Leaves* are the extrema of \
          the curvature of the arcs; the curve has as many at every tolerance.\n",
     );
     for (curve, rows) in curves.iter().zip(tables) {
-        let fine: Vec<&Row> = rows.iter().filter(|r| r.eps < 2e-6).collect();
-        let (first, last) = (fine[0], fine[fine.len() - 1]);
-        let slope = (last.ours as f64 / first.ours as f64).ln() / (last.eps / first.eps).ln();
+        let slope = |from: f64| {
+            let (first, last) =
+                (rows.iter().find(|r| r.eps < 2.0 * from).unwrap_or(&rows[0]), &rows[rows.len() - 1]);
+            (last.ours as f64 / first.ours as f64).ln() / (last.eps / first.eps).ln()
+        };
+        let [all, usual, fine] = [1e-3, 1e-4, 1e-6].map(slope);
         let _ = write!(
             page,
-            "\n## {}\n\n{} apices; slope {slope:.3}\n\n| tolerance | arcs | ratio | S0 | leaves |\n\
-             |---|---|---|---|---|\n",
+            "\n## {}\n\n{} apices; slope {usual:.3} from 1e-4 to 1e-9, {fine:.3} from 1e-6, {all:.3} from 1e-3\n\n\
+             | tolerance | arcs | ratio | away | S0 | leaves |\n|---|---|---|---|---|---|\n",
             curve.name, rows[0].apices
         );
         for row in rows {
             let ratio = row.ours as f64 / row.least;
+            let away = row.away.map_or(String::new(), |away| format!("{away:.2}"));
             let _ = writeln!(
                 page,
-                "| {:.0e} | {} | {ratio:.2} | {} | {} |",
+                "| {:.0e} | {} | {ratio:.2} | {away} | {} | {} |",
                 row.eps, row.ours, row.theirs, row.leaves
             );
         }
@@ -116,6 +122,7 @@ fn table(curve: &Curve) -> Vec<Row> {
             ours: ours.path.len(),
             theirs: curve.fit(Scheme::Bisection, eps).path.len(),
             least: integral / (192.0 * eps).cbrt(),
+            away: away(&ours, eps),
             leaves: extrema(&ours),
             apices: ours.cuts.apices,
             looseness: ours.bound / ours.found,
@@ -127,18 +134,19 @@ fn table(curve: &Curve) -> Vec<Row> {
 
 fn print(curve: &Curve, rows: &[Row]) {
     println!("{}, {} apices", curve.name, rows[0].apices);
-    println!("    eps     arcs   slope   ratio      S0   slope   leaves  bound/found  arcs/s");
+    println!("    eps     arcs   slope   ratio    away      S0   slope   leaves  bound/found  arcs/s");
     for (i, row) in rows.iter().enumerate() {
         let slope = |count: fn(&Row) -> usize| match i {
             0 => String::new(),
             _ => format!("{:.3}", -(count(row) as f64 / count(&rows[i - 1]) as f64).log10()),
         };
         println!(
-            "  {:5.0e} {:8} {:>7} {:7.3} {:7} {:>7} {:8} {:12.6} {:8.0}",
+            "  {:5.0e} {:8} {:>7} {:7.3} {:7.3} {:7} {:>7} {:8} {:12.6} {:8.0}",
             row.eps,
             row.ours,
             slope(|r| r.ours),
             row.ours as f64 / row.least,
+            row.away.unwrap_or(f64::NAN),
             row.theirs,
             slope(|r| r.theirs),
             row.leaves,
@@ -148,7 +156,7 @@ fn print(curve: &Curve, rows: &[Row]) {
     }
 }
 
-/// Output arcs per second by the scheme of the march alone, proof included.
+/// Output arcs per second by the default scheme, proof included.
 fn speed(curve: &Curve, eps: f64) -> f64 {
     let start = Instant::now();
     let (mut arcs, mut runs) = (0, 0);
@@ -169,6 +177,27 @@ fn integral(fit: &Fit) -> f64 {
         ((l - k).abs() / h).cbrt() * h
     };
     (0..n).map(part).sum()
+}
+
+/// The number of arcs over the least number of any arcs, without those that are an extremum of the
+/// curvature and those beside them. `None` where too few are left.
+fn away(fit: &Fit, eps: f64) -> Option<f64> {
+    const FEW: usize = 8;
+    let elements: Vec<_> = fit.path.elements().map(|e| (e.curvature(), e.length())).collect();
+    let n = elements.len();
+    let near = |i: usize, by: usize| elements[(i + by) % n];
+    let is_apex = |i: usize| {
+        let (before, (k, _), after) = (near(i, n - 1), near(i, 0), near(i, 1));
+        (k > before.0) == (k > after.0)
+    };
+    let (mut count, mut least) = (0, 0.0);
+    for i in (0..n).filter(|&i| ![n - 1, 0, 1].iter().any(|by| is_apex((i + by) % n))) {
+        let ((before, a), (_, length), (after, b)) = (near(i, n - 1), near(i, 0), near(i, 1));
+        let slope = (after - before).abs() / (0.5 * (a + b) + length);
+        count += 1;
+        least += length * (slope / (192.0 * eps)).cbrt();
+    }
+    (count >= FEW).then(|| f64::from(count as u32) / least)
 }
 
 /// Local extrema of the curvature, to round-off.

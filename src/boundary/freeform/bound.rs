@@ -57,11 +57,11 @@ impl Distance {
 /// An arc in the frame of its chord.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Frame {
-    middle: Vector,
-    along: Vector,
-    half: f64,
-    cos: f64,
-    half_curvature: f64,
+    pub middle: Vector,
+    pub along: Vector,
+    pub half: f64,
+    pub cos: f64,
+    pub half_curvature: f64,
 }
 
 impl Frame {
@@ -85,13 +85,13 @@ impl Frame {
     }
 
     /// Distance to the circle for the absolute power.
-    fn distance(&self, power: f64) -> f64 {
+    pub fn distance(&self, power: f64) -> f64 {
         let root = 1.0 - 4.0 * self.half_curvature.abs() * power;
         if root >= 0.0 { 2.0 * power / (1.0 + root.sqrt()) } else { f64::INFINITY }
     }
 
     /// The power of places at a distance.
-    fn power(&self, distance: f64) -> f64 {
+    pub fn power(&self, distance: f64) -> f64 {
         (distance - self.half_curvature.abs() * distance * distance).max(0.0)
     }
 

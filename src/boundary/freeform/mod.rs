@@ -26,11 +26,11 @@
 //! # Ok::<(), medial::boundary::freeform::CurveError>(())
 //! ```
 
+mod apex;
 mod bernstein;
 mod biarc;
 mod bound;
 mod chords;
-mod crest;
 mod cuts;
 mod density;
 mod drawn;
@@ -39,11 +39,14 @@ mod error;
 mod features;
 mod fit;
 mod interpolate;
+mod layout;
 mod nurbs;
+mod order;
 mod piece;
 mod pieces;
 mod roots;
 mod run;
+mod short;
 mod spiral;
 mod spread;
 mod track;

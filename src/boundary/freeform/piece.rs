@@ -137,8 +137,8 @@ impl Piece {
 
     /// Place at `t`.
     pub fn at(&self, t: f64) -> Vector {
-        if self.rational {
-            return self.jet(t).q;
+        if self.rational || self.degree <= 3 {
+            return self.motion(t).0;
         }
         let (mut p, n) = (self.points, self.degree);
         for level in (0..n).rev() {
@@ -151,6 +151,14 @@ impl Piece {
 
     /// Place and first derivative at `t`.
     pub fn motion(&self, t: f64) -> (Vector, Vector) {
+        if self.degree <= 3 {
+            let [x, y, w] = self.powers(t);
+            if !self.rational {
+                return (vector(x[0], y[0]), vector(x[1], y[1]));
+            }
+            let q = vector(x[0], y[0]) / w[0];
+            return (q, (vector(x[1], y[1]) - q * w[1]) / w[0]);
+        }
         if self.rational {
             let jet = self.jet(t);
             return (jet.q, jet.d1);
@@ -166,18 +174,44 @@ impl Piece {
 
     /// Place and derivatives at `t`.
     pub fn jet(&self, t: f64) -> Jet {
-        let Homogeneous { x, y, w } = self.homogeneous();
-        let (x, y) = (taylor(x, self.degree, t), taylor(y, self.degree, t));
+        let [x, y, w] = if self.degree <= 3 {
+            self.powers(t).map(|c| [c[0], c[1], 2.0 * c[2], 6.0 * c[3]])
+        } else {
+            let Homogeneous { x, y, w } = self.homogeneous();
+            [x, y, w].map(|c| taylor(c, self.degree, t))
+        };
         let d = |i: usize| vector(x[i], y[i]);
         if !self.rational {
             return Jet { q: d(0), d1: d(1), d2: d(2), d3: d(3) };
         }
-        let w = taylor(w, self.degree, t);
         let q = d(0) / w[0];
         let d1 = (d(1) - q * w[1]) / w[0];
         let d2 = (d(2) - d1 * (2.0 * w[1]) - q * w[2]) / w[0];
         let d3 = (d(3) - d2 * (3.0 * w[1]) - d1 * (3.0 * w[2]) - q * w[3]) / w[0];
         Jet { q, d1, d2, d3 }
+    }
+
+    /// The coefficients of both numerators and the denominator, of degree 3 at most, by powers of the
+    /// distance from parameter `t`.
+    #[inline]
+    pub fn powers(&self, t: f64) -> [[f64; 4]; 3] {
+        debug_assert!(self.degree <= 3);
+        let w = if self.rational {
+            cubic_powers(self.four(|_, w| w), self.degree, t)
+        } else {
+            [1.0, 0.0, 0.0, 0.0]
+        };
+        [
+            cubic_powers(self.four(|p, w| p.x * w), self.degree, t),
+            cubic_powers(self.four(|p, w| p.y * w), self.degree, t),
+            w,
+        ]
+    }
+
+    /// Something of the first four control points and weights.
+    #[inline]
+    fn four(&self, of: impl Fn(Vector, f64) -> f64) -> [f64; 4] {
+        [0, 1, 2, 3].map(|i| of(self.points[i], self.weights[i]))
     }
 
     fn homogeneous(&self) -> Homogeneous {
@@ -227,6 +261,24 @@ struct Homogeneous {
     x: [f64; LEN],
     y: [f64; LEN],
     w: [f64; LEN],
+}
+
+/// Coefficients by powers of the distance from `t` of a polynomial in Bernstein form of degree 3 at most.
+#[inline]
+fn cubic_powers([a, b, c, d]: [f64; 4], n: usize, t: f64) -> [f64; 4] {
+    let s = 1.0 - t;
+    let (u, v) = (s * a + t * b, s * b + t * c);
+    match n {
+        3 => {
+            let w = s * c + t * d;
+            let (l, m) = (s * u + t * v, s * v + t * w);
+            let (first, second) = (m - l, w - 2.0 * v + u);
+            [s * l + t * m, 3.0 * first, 3.0 * second, d - 3.0 * c + 3.0 * b - a]
+        }
+        2 => [s * u + t * v, 2.0 * (v - u), c - 2.0 * b + a, 0.0],
+        1 => [u, b - a, 0.0, 0.0],
+        _ => [a, 0.0, 0.0, 0.0],
+    }
 }
 
 /// Value and first three derivatives at `t` of a polynomial in Bernstein form.

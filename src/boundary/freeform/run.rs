@@ -10,24 +10,31 @@
 //! another picture than the cuts all the same, the nearest cut gets a node; where that does not help,
 //! its neighborhood gets a more careful scheme.
 
-use super::biarc::{Arc, Node};
-use super::crest::{Crest, Room, crest};
+use super::apex::{ApexArc, Room, apex_arc};
+use super::biarc::Node;
 use super::cuts::{CutKind, Stretch};
+use super::density::Density;
+use super::layout::{Ends, Lost};
+use super::order::wrong_places;
 use super::spiral::{Cell, Fitter, Scheme};
-use super::spread::Ends;
 use super::track::{Side, Track};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// Rounds of putting nodes and choosing schemes; cuts that are still wrong then stay so.
-const MAX_ROUNDS: usize = 12;
+const MAX_ROUNDS: usize = 32;
 
 /// An arc over an apex reaches over at most this part of the way to the next apices and to the ends.
-const CREST_SHARE: f64 = 0.4375;
+const APEX_SHARE: f64 = 0.4375;
 
-/// Arcs over an apex are laid within the half of the tolerance, again and again, so many times at most
-/// until those beside them fit.
-const MAX_HALVINGS: i32 = 4;
+/// Arcs over an apex are laid within this part of the tolerance, again and again, until those beside them
+/// fit: one step at a time, or many where curvatures are wrong.
+const STEP: f64 = std::f64::consts::FRAC_1_SQRT_2;
+const LEAP: i32 = 2;
+const MAX_STEPS: i32 = 8;
+
+/// Up to so many steps cost less than one more arc beside.
+const YIELDING_STEPS: i32 = 2;
 
 /// Schemes for a part of a run, each more careful with curvatures than the one before.
 const CAREFUL: [Scheme; 4] = [Scheme::Tilted, Scheme::Plain, Scheme::Osculating, Scheme::Bisection];
@@ -50,10 +57,10 @@ pub(super) fn fit_run(
     out: &mut Vec<Cell>,
 ) -> Option<()> {
     if !matches!(scheme, Scheme::Fewest | Scheme::Tilted) {
-        return run.stretches.chunks(1).try_for_each(|s| {
-            let ends = Ends { nodes: ends(track, s), crests: [false; 2], singles: [false; 2] };
-            fitter.fit(track, &ends, (tolerance, scheme), out)
-        });
+        return run
+            .stretches
+            .chunks(1)
+            .try_for_each(|s| fitter.fit(track, &Ends::of(ends(track, s)), (tolerance, scheme), out).ok());
     }
     let work = &mut Work { fitter, track, tolerance, run };
     let mut plan = Plan::of(run);
@@ -62,15 +69,15 @@ pub(super) fn fit_run(
     for round in 0..MAX_ROUNDS {
         out.truncate(begin);
         if round + 1 == MAX_ROUNDS {
-            plan.give_up_crests();
+            plan.give_up_apex_arcs();
         }
         laid.lay(work, &plan)?;
-        if !laid.lost.is_empty() && plan.improve(&laid.lost, run, track) {
+        if !laid.lost.is_empty() && plan.improve((&laid.lost, 1), run, track) {
             continue;
         }
         laid.parts.iter().for_each(|p| out.extend_from_slice(&laid.cells[p.cells.clone()]));
         let wrong = wrong_places(&out[begin..], run, track.noise());
-        if !plan.improve(&wrong, run, track) {
+        if !plan.improve((&wrong, LEAP), run, track) {
             break;
         }
     }
@@ -84,20 +91,20 @@ fn ends(track: &Track, stretches: &[Stretch]) -> [Node; 2] {
 
 impl Run<'_> {
     /// Parameter at the end.
-    fn end(&self) -> f64 {
+    pub fn end(&self) -> f64 {
         self.stretches[self.stretches.len() - 1].to.u
     }
 
     /// What there is where stretch `i` begins; where the last one ends it is the same as at the first
     /// in a ring.
-    fn is_apex(&self, i: usize) -> bool {
+    pub fn is_apex(&self, i: usize) -> bool {
         let n = self.stretches.len();
         let inner = i > 0 && i < n;
         (inner || self.ring) && self.stretches[i % n].from.kind == CutKind::Apex
     }
 
     /// Parameter where stretch `i` begins, counted on around a ring.
-    fn at(&self, i: usize) -> f64 {
+    pub fn at(&self, i: usize) -> f64 {
         let n = self.stretches.len();
         let turns = (i / n) as f64 * (self.end() - self.stretches[0].from.u);
         if i == n { self.end() } else { self.stretches[i % n].from.u + turns }
@@ -117,8 +124,8 @@ impl Run<'_> {
 enum At {
     /// Nothing in particular.
     None,
-    /// An arc over an apex, within half the tolerance as often as this says.
-    Crest(i32),
+    /// An arc over an apex, so many steps within the tolerance.
+    Apex(i32),
     /// A node.
     Node,
 }
@@ -136,7 +143,7 @@ impl Plan {
     fn of(run: Run) -> Plan {
         let n = run.stretches.len();
         let mut nodes: Vec<At> =
-            (0..=n).map(|i| if run.is_apex(i) { At::Crest(0) } else { At::None }).collect();
+            (0..=n).map(|i| if run.is_apex(i) { At::Apex(0) } else { At::None }).collect();
         for end in [0, n] {
             nodes[end] = if nodes[end] == At::None { At::Node } else { nodes[end] };
         }
@@ -144,14 +151,14 @@ impl Plan {
     }
 
     /// Makes all arcs over apices nodes.
-    fn give_up_crests(&mut self) {
+    fn give_up_apex_arcs(&mut self) {
         for at in &mut self.nodes {
-            *at = if matches!(at, At::Crest(_)) { At::Node } else { *at };
+            *at = if matches!(at, At::Apex(_)) { At::Node } else { *at };
         }
     }
 
     /// Takes more care at some places; answers whether it can.
-    fn improve(&mut self, wrong: &[f64], run: Run, track: &Track) -> bool {
+    fn improve(&mut self, (wrong, step): (&[f64], i32), run: Run, track: &Track) -> bool {
         let mut better = false;
         let n = run.stretches.len();
         let (nodes, care) = (self.nodes.clone(), self.care.clone());
@@ -161,15 +168,15 @@ impl Plan {
             let place = track.place(u);
             let far = |i: usize| (track.place(run.at(i)) - place).length_squared();
             let nearest = if far(after) < far(after - 1) { after } else { after - 1 };
-            // A crest too wide is what bends those beside it the wrong way.
+            // An arc too wide over an apex is what bends those beside it the wrong way.
             let before = (0..after).rev().find(|&i| run.is_apex(i));
             let behind = (after..=n).find(|&i| run.is_apex(i));
-            let crest = [before, behind].into_iter().flatten().filter(|&i| nodes[i] != At::Node);
-            let first = crest.min_by(|&i, &j| far(i).total_cmp(&far(j)));
+            let apex_arc = [before, behind].into_iter().flatten().filter(|&i| nodes[i] != At::Node);
+            let first = apex_arc.min_by(|&i, &j| far(i).total_cmp(&far(j)));
             let first = first.or_else(|| Some(nearest).filter(|&i| nodes[i] != At::Node));
             if let Some(i) = first {
                 self.nodes[i] = match nodes[i] {
-                    At::Crest(halvings) if halvings < MAX_HALVINGS => At::Crest(halvings + 1),
+                    At::Apex(steps) if steps < MAX_STEPS => At::Apex(steps + step),
                     _ => At::Node,
                 };
                 if i == 0 || i == n {
@@ -199,13 +206,14 @@ struct Work<'a, 'b> {
 
 impl Work<'_, '_> {
     /// The arc over the apex where stretch `i > 0` begins, if there is room for one.
-    fn crest(&self, i: usize, halvings: i32) -> Option<Crest> {
+    fn apex_arc(&self, i: usize, steps: i32, before: Option<ApexArc>) -> Option<ApexArc> {
         let u = self.run.at(i);
         let limits = self.run.neighbors(i);
         let place = self.track.place(u);
         let way = limits.map(|limit| (self.track.place(limit) - place).length());
-        let room = Room { limits, most: CREST_SHARE * way[0].min(way[1]) };
-        crest(self.track, u, &room, self.tolerance * 0.5f64.powi(halvings))
+        let room = Room { limits, most: way.map(|way| APEX_SHARE * way) };
+        let other = before.as_ref().map(|other| (other, STEP));
+        apex_arc(self.track, u, &room, self.tolerance * STEP.powi(steps), other)
     }
 }
 
@@ -216,9 +224,25 @@ struct Part {
     stretches: Range<usize>,
     care: usize,
     /// What there is at both ends.
-    ends: [At; 2],
+    at: [At; 2],
     /// Its biarcs, as places in the list of all.
     cells: Range<usize>,
+}
+
+/// A part that may have to be laid.
+struct Draft {
+    stretches: Range<usize>,
+    care: usize,
+    at: [At; 2],
+    ends: Ends,
+    /// The density of biarcs along it, once that is known.
+    density: Option<Density>,
+}
+
+impl Draft {
+    fn is_like(&self, other: &Draft) -> bool {
+        (&self.stretches, self.care, self.at) == (&other.stretches, other.care, other.at)
+    }
 }
 
 /// The parts of a run as they are laid, kept while their plan does not change.
@@ -227,151 +251,129 @@ struct Laid {
     cells: Vec<Cell>,
     parts: Vec<Part>,
     /// Arcs over apices.
-    crests: BTreeMap<(usize, i32), Option<Crest>>,
+    apex_arcs: BTreeMap<(usize, i32), Option<ApexArc>>,
     /// Where arcs over apices leave no way for biarcs beside them.
     lost: Vec<f64>,
+    /// Parts that were not laid for that.
+    drafts: Vec<Draft>,
 }
 
 impl Laid {
+    /// Lays the parts that the plan has changed, or none while some arc over an apex is lost anyway.
     fn lay(&mut self, work: &mut Work, plan: &Plan) -> Option<()> {
-        let n = work.run.stretches.len();
-        let mut parts = Vec::with_capacity(self.parts.len() + 2);
-        let mut from = 0;
         self.lost.clear();
-        for to in 1..=n {
-            if to < n && plan.nodes[to] == At::None && plan.care[to] == plan.care[from] {
-                continue;
+        let mut drafts = self.drafts(work, plan)?;
+        for draft in &mut drafts {
+            if draft.density.is_none() && self.known(draft).is_none() {
+                let goal = (work.tolerance, CAREFUL[draft.care]);
+                let checked = work.fitter.check(work.track, &draft.ends, goal);
+                draft.density = Some(work.fitter.density());
+                self.note(draft, checked, work)?;
             }
-            let ends = [from, to].map(|i| self.at(i, work, plan));
-            parts.push(self.part(from..to, ends, work, plan.care[from])?);
-            if let At::Crest(halvings) = ends[1]
-                && let Some(Some(crest)) = self.crests.get(&(to, halvings))
+        }
+        if !self.lost.is_empty() {
+            self.drafts = drafts;
+            return Some(());
+        }
+        let mut parts = Vec::with_capacity(2 * drafts.len());
+        for draft in drafts {
+            let (to, end) = (draft.stretches.end, draft.at[1]);
+            parts.push(self.part(draft, work)?);
+            if let At::Apex(steps) = end
+                && let Some(Some(apex_arc)) = self.apex_arcs.get(&(to, steps))
             {
                 let begin = self.cells.len();
-                self.cells.push(crest.cell);
+                self.cells.push(apex_arc.cell);
                 let cells = begin..begin + 1;
-                parts.push(Part { stretches: to..to, care: 0, ends: [ends[1]; 2], cells });
+                parts.push(Part { stretches: to..to, care: 0, at: [end; 2], cells });
             }
-            from = to;
         }
         self.parts = parts;
         Some(())
     }
 
+    /// The parts between nodes and arcs over apices.
+    fn drafts(&mut self, work: &Work, plan: &Plan) -> Option<Vec<Draft>> {
+        let n = work.run.stretches.len();
+        let mut before = std::mem::take(&mut self.drafts);
+        let mut drafts = Vec::with_capacity(before.len());
+        let mut from = 0;
+        for to in 1..=n {
+            if to < n && plan.nodes[to] == At::None && plan.care[to] == plan.care[from] {
+                continue;
+            }
+            let at = [from, to].map(|i| self.at(i, work, plan));
+            let ends = self.ends(from..to, at, work)?;
+            let mut draft = Draft { stretches: from..to, care: plan.care[from], at, ends, density: None };
+            if let Ok(old) = before.binary_search_by_key(&from, |d| d.stretches.start)
+                && before[old].is_like(&draft)
+            {
+                draft.density = before[old].density.take();
+            }
+            drafts.push(draft);
+            from = to;
+        }
+        Some(drafts)
+    }
+
     /// What there is where stretch `i` begins: a node where there is no room for anything else.
     fn at(&mut self, i: usize, work: &Work, plan: &Plan) -> At {
         match plan.nodes[i] {
-            At::Crest(halvings) if self.crest(i, halvings, work).is_some() => At::Crest(halvings),
+            At::Apex(steps) if self.apex_arc(i, steps, work).is_some() => At::Apex(steps),
             _ => At::Node,
         }
     }
 
     /// The arc over the apex where stretch `i` begins; the first of a ring counts as the last.
-    fn crest(&mut self, i: usize, halvings: i32, work: &Work) -> Option<Crest> {
+    fn apex_arc(&mut self, i: usize, steps: i32, work: &Work) -> Option<ApexArc> {
         let i = if i == 0 { work.run.stretches.len() } else { i };
-        *self.crests.entry((i, halvings)).or_insert_with(|| work.crest(i, halvings))
+        let before = self.apex_arcs.get(&(i, steps - 1)).copied().flatten();
+        *self.apex_arcs.entry((i, steps)).or_insert_with(|| work.apex_arc(i, steps, before))
     }
 
-    /// The part over some stretches, laid before if nothing has changed.
-    fn part(&mut self, range: Range<usize>, at: [At; 2], work: &mut Work, care: usize) -> Option<Part> {
-        let key = (range.start, range.end);
-        let old = self.parts.binary_search_by_key(&key, |p| (p.stretches.start, p.stretches.end));
-        if let Ok(i) = old
-            && self.parts[i].care == care
-            && self.parts[i].ends == at
-        {
-            return Some(self.parts[i].clone());
-        }
+    fn ends(&mut self, range: Range<usize>, at: [At; 2], work: &Work) -> Option<Ends> {
         let mut nodes = ends(work.track, &work.run.stretches[range.clone()]);
-        if let At::Crest(halvings) = at[0] {
-            let crest = self.crest(range.start, halvings, work)?;
+        if let At::Apex(steps) = at[0] {
+            let apex_arc = self.apex_arc(range.start, steps, work)?;
             let turn = if range.start == 0 { work.run.end() - work.run.at(0) } else { 0.0 };
-            nodes[0] = Node { u: crest.nodes[1].u - turn, ..crest.nodes[1] };
+            nodes[0] = Node { u: apex_arc.nodes[1].u - turn, ..apex_arc.nodes[1] };
         }
-        if let At::Crest(halvings) = at[1] {
-            nodes[1] = self.crest(range.end, halvings, work)?.nodes[0];
+        if let At::Apex(steps) = at[1] {
+            nodes[1] = self.apex_arc(range.end, steps, work)?.nodes[0];
         }
-        let crests = at.map(|at| matches!(at, At::Crest(_)));
-        let singles = at.map(|at| matches!(at, At::Crest(0 | 1)));
+        let apex_arcs = at.map(|at| matches!(at, At::Apex(_)));
+        let singles = at.map(|at| matches!(at, At::Apex(..=LEAP)));
+        let yields = at.map(|at| matches!(at, At::Apex(steps) if steps < YIELDING_STEPS));
+        Some(Ends { nodes, apex_arcs, singles, yields })
+    }
+
+    /// The part laid before, if nothing has changed.
+    fn known(&self, draft: &Draft) -> Option<&Part> {
+        let key = (draft.stretches.start, draft.stretches.end);
+        let old = self.parts.binary_search_by_key(&key, |p| (p.stretches.start, p.stretches.end)).ok()?;
+        Some(&self.parts[old]).filter(|part| part.care == draft.care && part.at == draft.at)
+    }
+
+    fn part(&mut self, draft: Draft, work: &mut Work) -> Option<Part> {
+        if let Some(part) = self.known(&draft) {
+            return Some(part.clone());
+        }
         let begin = self.cells.len();
-        let ends = Ends { nodes, crests, singles };
-        let laid = work.fitter.fit(work.track, &ends, (work.tolerance, CAREFUL[care]), &mut self.cells);
-        if laid.is_none() {
-            let lost = [range.start, range.end].into_iter().zip(crests).filter(|(_, crest)| *crest);
-            let before = self.lost.len();
-            self.lost.extend(lost.map(|(i, _)| work.run.at(i)));
-            if self.lost.len() == before {
-                return None;
-            }
-        }
-        Some(Part { stretches: range, care, ends: at, cells: begin..self.cells.len() })
+        let goal = (work.tolerance, CAREFUL[draft.care]);
+        let mut draft = draft;
+        work.fitter.take(draft.density.take());
+        let laid = work.fitter.fit(work.track, &draft.ends, goal, &mut self.cells);
+        self.note(&draft, laid, work)?;
+        let Draft { stretches, care, at, .. } = draft;
+        Some(Part { stretches, care, at, cells: begin..self.cells.len() })
     }
-}
 
-/// An arc with the parameters between which it stands for the curve.
-#[derive(Clone, Copy)]
-struct Span {
-    from: f64,
-    to: f64,
-    curvature: f64,
-    /// Round-off of the curvature.
-    error: f64,
-}
-
-impl Span {
-    fn of(arc: &Arc, from: f64, to: f64, noise: f64) -> Span {
-        let error = noise / (arc.end - arc.start).length_squared();
-        Span { from, to, curvature: arc.curvature(), error }
+    /// Notes which arcs over apices are lost; `None` if something else is.
+    fn note(&mut self, draft: &Draft, laid: Result<(), Lost>, work: &Work) -> Option<()> {
+        let Err(Lost { ends }) = laid else { return Some(()) };
+        let lost = [draft.stretches.start, draft.stretches.end].into_iter().zip(ends);
+        let before = self.lost.len();
+        self.lost.extend(lost.filter(|(_, lost)| *lost).map(|(i, _)| work.run.at(i)));
+        (self.lost.len() > before).then_some(())
     }
-}
-
-/// The parameters where the curvatures of the arcs do not rise and fall as those of the curve.
-fn wrong_places(cells: &[Cell], run: Run, noise: f64) -> Vec<f64> {
-    let mut spans: Vec<Span> =
-        cells.iter().flat_map(Cell::spans).map(|(arc, from, to)| Span::of(&arc, from, to, noise)).collect();
-    let stretches = run.stretches;
-    if run.ring {
-        // On around the ring, so that both sides of the seam are seen.
-        let turn = run.end() - run.at(0);
-        let first: Vec<Span> = spans.iter().take(2).copied().collect();
-        spans.extend(first.iter().map(|s| Span { from: s.from + turn, to: s.to + turn, ..*s }));
-    }
-    let apices: Vec<f64> = (1..=stretches.len()).filter(|&i| run.is_apex(i)).map(|i| run.at(i)).collect();
-    let at = |i: usize| apices[i];
-    // Number of apices before a parameter, and of those that are not behind it.
-    let before = |u: f64| apices.partition_point(|&a| a < u);
-    let up_to = |u: f64| apices.partition_point(|&a| a <= u);
-    let inside = |s: &Span| before(s.to).saturating_sub(up_to(s.from));
-    let mut wrong = Vec::new();
-    let mut changes = Vec::new();
-    for (i, w) in spans.windows(2).enumerate() {
-        let step = w[1].curvature - w[0].curvature;
-        let hidden = step.abs() <= w[0].error + w[1].error;
-        if !hidden {
-            changes.push(step > 0.0);
-        }
-        let rising = stretches[0].rises != (before(w[0].to) % 2 == 1);
-        let certain = inside(&w[0]) == inside(&w[1]) && up_to(w[0].to) == before(w[0].to);
-        let too_many = inside(&w[0]) > 1 || inside(&w[1]) > 1;
-        if too_many || certain && (step > 0.0) != rising && (!hidden || inside(&w[0]) > 0) {
-            wrong.push(w[0].to);
-        }
-        // A dent in the extremum: down and up again around the arc that runs over an apex.
-        if let Some(next) = spans.get(i + 2)
-            && inside(&w[1]) == 1
-            && !hidden
-        {
-            let a = up_to(w[1].from);
-            let rising = stretches[0].rises != (a % 2 == 1);
-            debug_assert!(at(a) >= w[1].from);
-            if (step > 0.0) != rising && (next.curvature > w[1].curvature) == rising {
-                wrong.push(at(a));
-            }
-        }
-    }
-    changes.dedup();
-    if wrong.is_empty() && changes.len().saturating_sub(1) != apices.len() && !apices.is_empty() {
-        wrong.extend((0..apices.len()).map(at));
-    }
-    wrong
 }

@@ -5,7 +5,9 @@
 
 use super::biarc::{Arc, Joint, Node, biarc};
 use super::bound::Distance;
-use super::spread::{Ends, Goal, Spread};
+use super::density::Density;
+use super::layout::{Ends, Goal, Lost};
+use super::spread::Spread;
 use super::track::Track;
 
 /// How nodes and joints are chosen.
@@ -57,30 +59,45 @@ pub(super) struct Fitter {
 }
 
 impl Fitter {
-    /// Appends biarcs from one node to another; `None` when the limit on effort is reached, or nothing
-    /// fits beside arcs over apices.
+    /// The density of the part checked last.
+    pub fn density(&mut self) -> Density {
+        self.spread.density()
+    }
+
+    /// Takes the density of the part that is fitted next.
+    pub fn take(&mut self, density: Option<Density>) {
+        self.spread.take(density);
+    }
+
+    /// Whether biarcs may fit, as far as that can be told before they are laid.
+    pub fn check(
+        &mut self,
+        track: &Track,
+        ends: &Ends,
+        (tolerance, scheme): (f64, Scheme),
+    ) -> Result<(), Lost> {
+        self.spread.check(track, ends, &Goal::of(scheme, tolerance))
+    }
+
+    /// Appends biarcs from one node to another, unless the limit on effort is reached, or nothing fits
+    /// beside arcs over apices.
     pub fn fit(
         &mut self,
         track: &Track,
         ends: &Ends,
         (tolerance, scheme): (f64, Scheme),
         out: &mut Vec<Cell>,
-    ) -> Option<()> {
-        let (joint, constant) = match scheme {
-            Scheme::Osculating | Scheme::Bisection | Scheme::Published => (Joint::Osculating, 1.0 / 12.0),
-            Scheme::Plain => (Joint::MIDDLE, 2.0 / 81.0),
-            Scheme::Fewest | Scheme::Tilted => (Joint::MIDDLE, 3f64.sqrt() / 216.0),
-        };
-        let tilted = matches!(scheme, Scheme::Fewest | Scheme::Tilted);
+    ) -> Result<(), Lost> {
+        let goal = Goal::of(scheme, tolerance);
         let halves = matches!(scheme, Scheme::Bisection | Scheme::Published);
-        let goal = Goal { tolerance, joint, tilted, constant };
-        if !halves && self.spread.run(track, ends, &goal, out).is_some() {
-            return Some(());
+        if !halves {
+            match self.spread.run(track, ends, &goal, out) {
+                Err(lost) if lost.ends != [false; 2] => return Err(lost),
+                Err(_) => {}
+                Ok(()) => return Ok(()),
+            }
         }
-        if !halves && ends.crests != [false; 2] {
-            return None;
-        }
-        self.halve(track, ends.nodes, (tolerance, joint), out)
+        self.halve(track, ends.nodes, (tolerance, goal.joint), out).ok_or(Lost { ends: [false; 2] })
     }
 
     /// Halves a run until every biarc fits.
@@ -96,10 +113,10 @@ impl Fitter {
         self.waiting.push(to);
         let mut a = from;
         while let Some(&b) = self.waiting.last() {
-            let mut found = cell(track, [&a, &b], 0.5 * (a.u + b.u), joint, 0.0);
+            let mut found = cell(track, [&a, &b], 0.5 * (a.u + b.u), joint, tolerance);
             if found.distance.bound > tolerance && joint == Joint::Osculating {
                 // At a curvature of zero and where it jumps there may be no osculating biarc.
-                let middle = cell(track, [&a, &b], 0.5 * (a.u + b.u), Joint::MIDDLE, 0.0);
+                let middle = cell(track, [&a, &b], 0.5 * (a.u + b.u), Joint::MIDDLE, tolerance);
                 if found.distance.bound.is_infinite() || middle.distance.bound <= tolerance {
                     found = middle;
                 }

@@ -14,36 +14,41 @@
 
 use super::biarc::{Arc, Joint, Node};
 use super::density::{Cursor, Density};
-use super::piece::Bend;
+use super::layout::{Ends, Goal, Layout, Lost, MANY, SPARE, first};
 use super::spiral::{Cell, MAX_BIARCS, cell};
-use super::track::Track;
+use super::track::{Side, Track};
 
-/// The least number of arcs tried, as a part of the number that the density says: it is not that
-/// precise for few arcs.
-const FIRST: f64 = 0.875;
+/// A few biarcs may fit in the end though errors say that so many more would be needed.
+const FEWER: f64 = 31.0 / 32.0;
 
 /// Layouts tried at most, and those with one number of arcs.
 const MAX_LAYOUTS: usize = 16;
-const MAX_SWEEPS: usize = 4;
+const MAX_SWEEPS: usize = 2;
 
-/// With more biarcs than this, errors below the tolerance are not measured precisely and the
-/// density is only corrected where it is too low.
-const MANY: usize = 24;
+/// A biarc beside an arc over an apex that errs by so many tolerances at most fits when that arc gives
+/// way a little.
+const YIELDING: f64 = 2.0;
 
-/// Biarcs that are many are made shorter by this part than the density says, as it is not constant along
-/// one.
-const SPARE: f64 = 1.0 / 96.0;
-
-/// A biarc turns by about this angle at most where the derivative of the curvature does not limit it,
-/// in radians. The tangents of a biarc must be within a right angle of its chord; so the curve need not
-/// be cut where it has turned by a right angle.
-const MAX_TURN: f64 = 1.25;
-
-/// With more arcs than so many times those that the density says, besides some, it says nothing.
+/// With more arcs than so many times those that the density says, and some more, it says nothing.
 const MOST: f64 = 2.0;
+const MOST_MORE: f64 = 24.0;
 
 /// Biarcs on a chord as long as that of the whole part, at least: something, where nothing bends.
 const LEAST: f64 = 1.0 / 64.0;
+
+/// A tangent at the end of an arc over an apex that turns more than suits the arc beside it by some part
+/// makes that one err more by so many times that part: the arc over the apex should be shorter.
+const STEEPNESS: f64 = 1.4;
+
+/// Less than this is not made up for by a shorter arc.
+const LEAST_SLANT: f64 = 0.5;
+
+/// From a narrower cell at an end to the next, this part of what it is narrower by is left.
+const FADING: f64 = 2.0 / 3.0;
+const SHORT: usize = 4;
+
+/// A cell narrower by some part makes the next one err as if it were wider by this part of that.
+const NEXT_TO_SLANT: f64 = 0.25;
 
 /// Largest turn of a tangent at a node, in radians: far beyond what the model above is good for.
 const MAX_TILT: f64 = 0.125;
@@ -51,36 +56,26 @@ const MAX_TILT: f64 = 0.125;
 /// The error of a biarc that could not be measured, in tolerances.
 const LOST: f64 = 8.0;
 
-/// What biarcs are laid for.
-#[derive(Clone, Copy)]
-pub(super) struct Goal {
-    /// Largest distance from the curve.
-    pub tolerance: f64,
-    /// Where arcs of a biarc meet.
-    pub joint: Joint,
-    /// Whether tangents are turned at nodes.
-    pub tilted: bool,
-    /// The error of an arc of length 1 where the derivative of the curvature is 1.
-    pub constant: f64,
-}
-
-/// The ends of a part of the curve.
-#[derive(Clone, Copy)]
-pub(super) struct Ends {
-    /// The nodes.
-    pub nodes: [Node; 2],
-    /// Whether an arc over an apex ends there.
-    pub crests: [bool; 2],
-    /// Whether one arc may be alone there.
-    pub singles: [bool; 2],
+/// What is known of a layout.
+struct Judged {
+    /// Whether all biarcs are within the tolerance.
+    fits: bool,
+    /// How many would be.
+    needed: f64,
+    /// The ends that alone keep it from fitting, and may yield.
+    yielding: [bool; 2],
 }
 
 /// The biarcs of a part in the making; kept for its buffers.
 #[derive(Debug, Default)]
 pub(super) struct Spread {
     density: Density,
+    /// Whether that is the density of the part that comes next.
+    is_filled: bool,
     /// Shares of the integral of the density at nodes, and the corrected shares.
     marks: Vec<[f64; 2]>,
+    /// How wide cells are to be, in biarcs.
+    widths: Vec<f64>,
     /// Shares at nodes, for the next layout.
     shares: Vec<f64>,
     /// The nodes, and places of the curve halfway between them.
@@ -91,125 +86,191 @@ pub(super) struct Spread {
     growth: Vec<f64>,
 }
 
-/// How many arcs, and which biarc is one arc alone.
-#[derive(Clone, Copy)]
-struct Layout {
-    biarcs: usize,
-    single: Option<usize>,
-}
-
-impl Goal {
-    /// Biarcs for each unit of the parameter.
-    fn density(&self, least: f64, bend: &Bend) -> f64 {
-        let error = 0.125 * self.constant * bend.slope / self.tolerance;
-        let turn = bend.curvature / MAX_TURN;
-        let (turn, least) = (turn * turn * turn, least * least * least);
-        bend.speed * (error * error + turn * turn + least * least).sqrt().cbrt()
-    }
-}
-
-impl Layout {
-    /// The layout of some arcs; with an odd number, one is alone beside an arc over an apex where the
-    /// curve bends most.
-    fn of(arcs: usize, ends: &Ends, many: bool) -> Option<Layout> {
-        let biarcs = arcs.div_ceil(2);
-        if many || arcs.is_multiple_of(2) {
-            return Some(Layout { biarcs, single: None });
-        }
-        let bend = |i: usize| if ends.singles[i] { ends.nodes[i].curvature.abs() } else { -1.0 };
-        let first = bend(0) > bend(1);
-        let possible = biarcs > 1 && ends.singles[usize::from(!first)];
-        possible.then_some(Layout { biarcs, single: Some(if first { 0 } else { biarcs - 1 }) })
-    }
-
-    /// The width of a cell in biarcs.
-    fn width(&self, i: usize) -> f64 {
-        if self.single == Some(i) { 0.5 } else { 1.0 }
-    }
-}
-
 impl Spread {
-    /// Appends biarcs from one end to the other; nothing is appended when it fails.
-    pub fn run(&mut self, track: &Track, ends: &Ends, goal: &Goal, out: &mut Vec<Cell>) -> Option<()> {
-        let chord = (ends.nodes[1].place - ends.nodes[0].place).length();
-        let least = LEAST / if chord > 0.0 { chord } else { track.extent() };
-        let total = self.density.fill(track, &ends.nodes, |bend| goal.density(least, bend));
-        if !(total > 0.0 && total <= MAX_BIARCS as f64) {
-            return None;
+    /// The density of the part checked last.
+    pub fn density(&mut self) -> Density {
+        std::mem::take(&mut self.density)
+    }
+
+    /// Takes the density of the part that comes next.
+    pub fn take(&mut self, density: Option<Density>) {
+        self.is_filled = density.is_some();
+        self.density = density.unwrap_or_default();
+    }
+
+    /// Whether tangents at ends suit the biarcs beside them, if those ends may yield.
+    pub fn check(&mut self, track: &Track, ends: &Ends, goal: &Goal) -> Result<(), Lost> {
+        self.is_filled = false;
+        let Some(total) = self.fill(track, ends, goal) else { return Ok(()) };
+        match Layout::of(first(total), ends) {
+            Some(layout) => self.slants(track, ends, goal, (layout, total)).map(|_| ()),
+            None => Ok(()),
         }
-        self.marks.clear();
-        self.marks.extend([[0.0; 2], [total; 2]]);
-        let many = total > MANY as f64;
-        let first = if many { 1.0 + SPARE } else { FIRST };
-        let mut arcs = ((2.0 * first * total).ceil() as usize).max(2);
-        let mut sweeps = 0;
+    }
+
+    /// Appends biarcs from one end to the other; nothing is appended when it fails.
+    pub fn run(&mut self, track: &Track, ends: &Ends, goal: &Goal, out: &mut Vec<Cell>) -> Result<(), Lost> {
+        let total = self.fill(track, ends, goal).ok_or(Lost { ends: ends.apex_arcs })?;
+        let many = total > MANY;
+        let (mut arcs, mut sweeps) = (first(total), 0);
         for _ in 0..MAX_LAYOUTS {
-            let Some(layout) = Layout::of(arcs, ends, many) else {
+            let Some(layout) = Layout::of(arcs, ends) else {
                 arcs += 1;
                 continue;
             };
-            self.lay(track, ends, goal, layout, many);
-            let (fits, needed) = self.judge(goal, layout, many);
-            if fits {
+            let slants = self.slants(track, ends, goal, (layout, total))?;
+            let spare = self.widen(layout, slants) - total;
+            if (many || layout.biarcs > 2) && spare < if many { SPARE * total } else { 0.0 } {
+                arcs += 1;
+                continue;
+            }
+            self.lay(track, ends, goal, layout);
+            let steep = [0, 1].map(|end| slants[end] > 1.0 && ends.yields[end]);
+            let judged = self.judge(goal, steep, many);
+            if judged.fits {
                 out.extend_from_slice(&self.cells);
-                return Some(());
+                return Ok(());
             }
-            let least = (2.0 * needed * if many { 1.0 + SPARE } else { 1.0 }).ceil();
-            if least > MANY as f64 + MOST * 2.0 * total {
-                return None;
+            let least = (2.0 * judged.needed * if many { 1.0 + SPARE } else { FEWER }).ceil();
+            if least > MOST_MORE + MOST * 2.0 * total {
+                break;
             }
-            sweeps = if least as usize <= arcs && sweeps < MAX_SWEEPS { sweeps + 1 } else { 0 };
-            arcs = if sweeps > 0 { arcs } else { (least as usize).max(arcs + 1) };
+            if judged.yielding != [false; 2] {
+                return Err(Lost { ends: judged.yielding });
+            }
+            let again = least as usize <= arcs && layout.biarcs > 1 && sweeps < MAX_SWEEPS;
+            sweeps = if again { sweeps + 1 } else { 0 };
+            arcs = if again { arcs } else { (least as usize).max(arcs + 1) };
         }
-        None
+        Err(Lost { ends: ends.apex_arcs })
+    }
+
+    /// Takes the density between two ends; answers its integral if it says something.
+    fn fill(&mut self, track: &Track, ends: &Ends, goal: &Goal) -> Option<f64> {
+        let chord = (ends.nodes[1].place - ends.nodes[0].place).length();
+        let least = LEAST / if chord > 0.0 { chord } else { track.extent() };
+        if !std::mem::take(&mut self.is_filled) {
+            self.density.fill(track, &ends.nodes, |bend| goal.density(least, bend));
+        }
+        let total = self.density.total();
+        self.marks.clear();
+        self.marks.extend([[0.0; 2], [total; 2]]);
+        (total > 0.0 && total <= MAX_BIARCS as f64).then_some(total)
+    }
+
+    /// How far the tangents at both ends turn, as [`Spread::slant`] says, unless they turn too far.
+    fn slants(
+        &self,
+        track: &Track,
+        ends: &Ends,
+        goal: &Goal,
+        (layout, total): (Layout, f64),
+    ) -> Result<[f64; 2], Lost> {
+        let slants = [0, 1].map(|end| self.slant(track, ends, goal, (layout, total), end));
+        let filled = total / layout.all();
+        let steep = [0, 1].map(|end| {
+            let error = filled.powi(3) * (1.0 + STEEPNESS * (slants[end] - 1.0));
+            ends.yields[end] && filled <= 1.0 && error > 1.0 - SPARE
+        });
+        if steep == [false; 2] { Ok(slants) } else { Err(Lost { ends: steep }) }
     }
 
     /// Lays nodes at equal shares of the corrected density, and biarcs between.
-    fn lay(&mut self, track: &Track, ends: &Ends, goal: &Goal, layout: Layout, many: bool) {
-        self.share(layout);
+    fn lay(&mut self, track: &Track, ends: &Ends, goal: &Goal, layout: Layout) {
+        self.share();
         self.place(track, ends);
         if goal.tilted {
-            self.tilt();
+            self.tilt(layout.single);
         }
+        let alone = layout.single.map(|i| (i, self.single(i)));
         self.cells.clear();
-        let limit = if many { goal.tolerance } else { 0.0 };
-        let n = layout.biarcs;
-        match layout.single {
-            Some(0) => {
-                let (cell, node) = single(track, &self.nodes[0], &self.nodes[1], false, limit);
-                self.cells.push(cell);
-                self.nodes[1] = node;
-            }
-            Some(_) => {
-                let (cell, node) = single(track, &self.nodes[n], &self.nodes[n - 1], true, limit);
-                self.nodes[n - 1] = node;
-                self.lay_biarcs(track, goal, 0..n - 1, limit);
-                return self.cells.push(cell);
-            }
-            None => {}
+        for i in 0..layout.biarcs {
+            let (a, b, middle) = (&self.nodes[i], &self.nodes[i + 1], &self.halfway[i]);
+            self.cells.push(match alone {
+                Some((single, arc)) if single == i => Cell::of_one(track, arc, [a.u, b.u], goal.tolerance),
+                _ => {
+                    let [before, after] = [a, b].map(|n| (n.place - middle.place).length());
+                    let shifted = Joint::Shifted((before - after) / (before + after));
+                    let joint = if goal.tilted { shifted } else { goal.joint };
+                    cell(track, [a, b], middle.u, joint, goal.tolerance)
+                }
+            });
         }
-        self.lay_biarcs(track, goal, self.cells.len()..n, limit);
     }
 
-    fn lay_biarcs(&mut self, track: &Track, goal: &Goal, range: std::ops::Range<usize>, limit: f64) {
-        for i in range {
-            let (a, b, middle) = (&self.nodes[i], &self.nodes[i + 1], &self.halfway[i]);
-            let [before, after] = [a, b].map(|n| (n.place - middle.place).length());
-            let shifted = Joint::Shifted((before - after) / (before + after));
-            let joint = if goal.tilted { shifted } else { goal.joint };
-            self.cells.push(cell(track, [a, b], middle.u, joint, limit));
+    /// One arc between two nodes, which get its tangents; those at the ends of the part keep theirs.
+    fn single(&mut self, i: usize) -> Arc {
+        let (a, b) = (self.nodes[i], self.nodes[i + 1]);
+        let leaving = Arc::leaving(a.place, a.tangent, b.place);
+        let arriving = Arc::arriving(a.place, b.place, b.tangent);
+        let last = i + 2 == self.nodes.len();
+        let bulge = match (i == 0, last) {
+            (true, _) => leaving.bulge,
+            (_, true) => arriving.bulge,
+            _ => 0.5 * (leaving.bulge + arriving.bulge),
+        };
+        let arc = Arc { bulge, ..leaving };
+        if i > 0 {
+            self.nodes[i].tangent = arc.start_tangent();
         }
+        if !last {
+            self.nodes[i + 1].tangent = arc.end_tangent();
+        }
+        arc
+    }
+
+    /// How far the tangent at an end turns from that of the curve, as a part of what suits the first arc
+    /// there.
+    fn slant(
+        &self,
+        track: &Track,
+        ends: &Ends,
+        goal: &Goal,
+        (layout, total): (Layout, f64),
+        end: usize,
+    ) -> f64 {
+        if !ends.apex_arcs[end] || !goal.tilted {
+            return 1.0;
+        }
+        let node = &ends.nodes[end];
+        let share = 0.5 * total / layout.all();
+        let (share, side) = if end == 0 { (share, Side::After) } else { (total - share, Side::Before) };
+        let next = track.node(self.density.beyond(share, &mut Cursor::default()));
+        let length = (next.place - node.place).length();
+        let (piece, t) = track.locate(node.u, side);
+        let turn = piece.motion(t).1.unit().cross(node.tangent);
+        let rises = if end == 0 { next.curvature > node.curvature } else { next.curvature < node.curvature };
+        let turn = if rises { -turn } else { turn };
+        let error = (total / layout.all()).powi(3) * goal.tolerance;
+        turn * goal.constant * length * 12.0 / error
+    }
+
+    /// Widths of the cells of a layout, those at the ends as wide as the tangents there want it; answers for
+    /// how many biarcs they are enough.
+    fn widen(&mut self, layout: Layout, slants: [f64; 2]) -> f64 {
+        let [mut first, mut last] = slants.map(|slant| slant.clamp(LEAST_SLANT, 1.0).sqrt() - 1.0);
+        let loss = NEXT_TO_SLANT * (first + last);
+        let fading = if layout.biarcs > SHORT { FADING } else { 0.5 };
+        self.widths.clear();
+        self.widths.resize(layout.biarcs, 1.0);
+        for i in 0..layout.biarcs {
+            self.widths[i] += first;
+            self.widths[layout.biarcs - 1 - i] += last;
+            (first, last) = (fading * first, fading * last);
+        }
+        (0..layout.biarcs).for_each(|i| self.widths[i] *= layout.width(i));
+        self.widths.iter().sum::<f64>() + loss
     }
 
     /// Shares of the density at the nodes of a layout, by the marks.
-    fn share(&mut self, layout: Layout) {
+    fn share(&mut self) {
         let [raw, corrected] = self.marks[self.marks.len() - 1];
-        let all = (0..layout.biarcs).map(|i| layout.width(i)).sum::<f64>();
+        let all: f64 = self.widths.iter().sum();
         self.shares.clear();
         self.shares.push(0.0);
         let (mut mark, mut reached) = (1, 0.0);
-        for i in 1..layout.biarcs {
-            reached += layout.width(i - 1);
+        for width in &self.widths[..self.widths.len() - 1] {
+            reached += width;
             let wanted = corrected * reached / all;
             while self.marks[mark][1] < wanted && mark + 1 < self.marks.len() {
                 mark += 1;
@@ -238,9 +299,11 @@ impl Spread {
     }
 
     /// Turns the tangents at nodes: by the mean of `-k' g^2 / 12` over the arcs on both sides.
-    fn tilt(&mut self) {
+    fn tilt(&mut self, single: Option<usize>) {
         for i in 1..self.nodes.len() - 1 {
-            let (node, before, after) = (self.nodes[i], &self.halfway[i - 1], &self.halfway[i]);
+            let node = self.nodes[i];
+            let before = if single == Some(i - 1) { &self.nodes[i - 1] } else { &self.halfway[i - 1] };
+            let after = if single == Some(i) { &self.nodes[i + 1] } else { &self.halfway[i] };
             let moment = (node.curvature - before.curvature) * (node.place - before.place).length()
                 + (after.curvature - node.curvature) * (after.place - node.place).length();
             let angle = (moment / 24.0).clamp(-MAX_TILT, MAX_TILT);
@@ -249,27 +312,37 @@ impl Spread {
         }
     }
 
-    /// Whether all biarcs are within the tolerance, and how many would be needed; the density is
-    /// corrected by their errors.
-    fn judge(&mut self, goal: &Goal, layout: Layout, many: bool) -> (bool, f64) {
+    /// Judges a layout; the density is corrected by its errors.
+    fn judge(&mut self, goal: &Goal, steep: [bool; 2], many: bool) -> Judged {
         let corrected = self.marks[self.marks.len() - 1][1];
-        let all: f64 = (0..layout.biarcs).map(|i| layout.width(i)).sum();
+        let scale = (corrected / self.widths.iter().sum::<f64>()).min(1.0);
         self.marks.clear();
         self.marks.push([0.0; 2]);
         self.growth.clear();
         self.growth.resize(self.cells.len(), 1.0);
-        let (mut fits, mut needed) = (true, 0.0);
+        let last = self.cells.len() - 1;
+        let mut judged = Judged { fits: true, needed: 0.0, yielding: [false; 2] };
+        let mut inner = true;
         for (i, cell) in self.cells.iter().enumerate() {
             let fine = cell.distance.bound <= goal.tolerance;
-            fits &= fine;
-            let width = layout.width(i) * (corrected / all).min(1.0);
+            judged.fits &= fine;
+            let width = self.widths[i] * scale;
             let error = (cell.distance.found / goal.tolerance).min(LOST);
-            let measured = layout.width(i) * error.cbrt();
+            let yields = [i == 0 && steep[0], i == last && steep[1]];
+            if !fine && yields != [false; 2] && error <= YIELDING {
+                judged.yielding = [0, 1].map(|e| judged.yielding[e] || yields[e]);
+            } else {
+                inner &= fine;
+            }
+            let measured = self.widths[i] * error.cbrt();
             self.growth[i] = match (many, fine) {
                 (true, true) => 1.0,
                 (true, false) => (measured / width).max(1.0) * (1.0 + SPARE),
                 _ => measured / width,
             };
+        }
+        if !inner {
+            judged.yielding = [false; 2];
         }
         if many {
             // Smoothly, as arcs of different lengths side by side turn the tangent between wrongly.
@@ -281,32 +354,18 @@ impl Spread {
             }
         }
         for i in 0..self.cells.len() {
-            let width = layout.width(i) * (corrected / all).min(1.0);
-            needed += self.growth[i] * width;
-            self.marks.push([self.shares[i + 1], needed]);
+            let width = self.widths[i] * scale;
+            judged.needed += self.growth[i] * width;
+            self.marks.push([self.shares[i + 1], judged.needed]);
         }
-        (fits, needed)
+        judged
     }
-}
-
-/// One arc from a node, its own tangent kept, to another, which answers with the tangent there.
-/// Backwards, the arc arrives at the first.
-fn single(track: &Track, from: &Node, to: &Node, backwards: bool, limit: f64) -> (Cell, Node) {
-    let arc = if backwards {
-        Arc::arriving(to.place, from.place, from.tangent)
-    } else {
-        Arc::leaving(from.place, from.tangent, to.place)
-    };
-    let tangent = if backwards { arc.start_tangent() } else { arc.end_tangent() };
-    let (a, b) = if backwards { (to.u, from.u) } else { (from.u, to.u) };
-    (Cell::of_one(track, arc, [a, b], limit), Node { tangent, ..*to })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::boundary::freeform::EllipseArc;
-    use crate::boundary::freeform::track::Side;
     use crate::geom::{point, vector};
 
     #[test]
@@ -315,7 +374,7 @@ mod tests {
         let pieces = quarter.pieces().unwrap();
         let track = Track::new(&pieces);
         let nodes = [track.cut_node(0.0, Side::After), track.cut_node(1.0, Side::Before)];
-        let ends = Ends { nodes, crests: [false; 2], singles: [false; 2] };
+        let ends = Ends::of(nodes);
         let goal = Goal { tolerance: 1e-7, joint: Joint::MIDDLE, tilted: false, constant: 2.0 / 81.0 };
         let mut cells = Vec::new();
         Spread::default().run(&track, &ends, &goal, &mut cells).unwrap();

@@ -5,6 +5,7 @@ use super::bound::{Distance, Frame};
 use super::cuts::{first_leg, last_leg};
 use super::piece::Piece;
 use super::pieces::Pieces;
+use super::short;
 use crate::geom::Vector;
 
 /// A curve with the grid that its nodes are stored on.
@@ -108,8 +109,14 @@ impl<'a> Track<'a> {
         self.extent
     }
 
-    /// The first parameter from a node towards `limit` at a distance; `limit` if there is none.
-    pub fn beyond_distance(&self, from: &Node, distance: f64, limit: f64) -> f64 {
+    /// The first parameter from a node towards `limit` at a distance; `limit` if there is none. A
+    /// parameter that may be near it, and no other is nearer to, saves the search.
+    pub fn beyond_distance(&self, from: &Node, distance: f64, (near, limit): (f64, f64)) -> f64 {
+        if near != limit
+            && let Some(u) = self.near_distance(from, distance, near)
+        {
+            return u;
+        }
         let forward = limit > from.u;
         let sign = if forward { 1.0 } else { -1.0 };
         let mut u = from.u;
@@ -126,6 +133,27 @@ impl<'a> Track<'a> {
                 return limit;
             }
         }
+    }
+
+    /// The parameter at a distance from a node by Newton's method alone, in the piece of one nearby.
+    fn near_distance(&self, from: &Node, distance: f64, near: f64) -> Option<f64> {
+        let (piece, mut t) = self.locate(near, if near > from.u { Side::Before } else { Side::After });
+        let whole = near - t;
+        for _ in 0..NEAR_STEPS {
+            let (q, d1) = piece.motion(t);
+            let w = q - from.place;
+            let length = w.length();
+            let step = (distance - length) * length / w.dot(d1);
+            t += step;
+            let (u, far) = (whole + t, (t - from.u + whole).abs());
+            if !((0.0..=1.0).contains(&t) && (u - from.u) * (near - from.u) > 0.0) {
+                return None;
+            }
+            if step.abs() <= CLOSE_ENOUGH.sqrt() * far {
+                return Some(u);
+            }
+        }
+        None
     }
 
     /// Distance between arcs and the parts of the curve they stand for, and the parameter between,
@@ -146,8 +174,13 @@ impl<'a> Track<'a> {
         }
         let frame = Frame::of(arc);
         let mut distance = Distance::ZERO;
-        for part in self.parts(from, to) {
-            let found = if self.sampled { frame.sample(&part) } else { frame.measure(part, limit) };
+        for (piece, range) in self.ranges(from, to) {
+            let found = if self.sampled {
+                frame.sample(&piece.part(range.0, range.1))
+            } else {
+                let found = short::measure(&frame, piece, range, limit);
+                found.unwrap_or_else(|| frame.measure(piece.part(range.0, range.1), 0.0))
+            };
             distance = distance.max(found);
             if distance.bound.is_infinite() {
                 break;
@@ -159,20 +192,26 @@ impl<'a> Track<'a> {
     /// How far the curve between two parameters is to the left and to the right of an arc.
     pub fn sides(&self, arc: &Arc, from: f64, to: f64) -> [f64; 2] {
         let frame = Frame::of(arc);
-        self.parts(from, to).fold([0.0f64; 2], |[left, right], part| {
-            let [l, r] = frame.sides(part);
+        self.ranges(from, to).fold([0.0f64; 2], |[left, right], (piece, range)| {
+            let found = short::sides(&frame, piece, range);
+            let [l, r] = found.unwrap_or_else(|| frame.sides(piece.part(range.0, range.1)));
             [left.max(l), right.max(r)]
         })
     }
 
     /// The parts of pieces between two parameters.
     fn parts(&self, from: f64, to: f64) -> impl Iterator<Item = Piece> {
-        let first = from.floor();
+        self.ranges(from, to).map(|(piece, (a, b))| piece.part(a, b))
+    }
+
+    /// Pieces between two parameters, and the parameters in them.
+    fn ranges(&self, from: f64, to: f64) -> impl Iterator<Item = (&'a Piece, (f64, f64))> {
+        let (first, pieces) = (from.floor(), self.pieces);
         let count = ((to - first).ceil()).max(0.0) as usize;
         (0..count).filter_map(move |i| {
             let whole = first + i as f64;
             let (a, b) = ((from - whole).max(0.0), (to - whole).min(1.0));
-            (a < b).then(|| self.piece(whole as usize).part(a, b))
+            (a < b).then(|| (&pieces[whole as usize % pieces.len()], (a, b)))
         })
     }
 
@@ -259,6 +298,9 @@ fn refined(piece: &Piece, mut near: f64, mut far: f64, place: Vector, distance: 
     }
     t
 }
+
+/// Steps of Newton's method from a parameter nearby, before the search begins anew.
+const NEAR_STEPS: usize = 6;
 
 /// A step of Newton's method so much shorter than the bracket squares to less than round-off.
 const CLOSE_ENOUGH: f64 = 1e-9;

@@ -1,0 +1,169 @@
+//! One arc over an apex.
+//!
+//! **Guarantees** an arc within the tolerance of the curve around an apex, as far to both sides as it
+//! may reach, nearly. Being the extremum itself, it costs the curve no apex.
+//!
+//! **Method.** Its ends lie on the curve, as far from the apex; its bulge makes the errors on both
+//! sides of the arc equal. Such an arc spares more than another: with curvature `k - c s^2 / 2` it errs
+//! by `c L^4 / 140` for ends at `s = L` and `-L`, where the least number of any arcs within that error
+//! would be 1.35, and with `k - c |s|` by `c L^3 / 61`, for 1.37. In both cases that is the change of
+//! the curvature times `L^2 / 65`, about, which makes a first guess.
+
+use super::biarc::{Arc, Node};
+use super::spiral::Cell;
+use super::track::{Side, Track};
+
+/// Error over change of curvature times squared reach.
+const FLATNESS: f64 = 1.0 / 65.0;
+
+/// Steps of the guess, and corrections of the arc.
+const GUESSES: usize = 6;
+const MAX_CORRECTIONS: usize = 16;
+
+/// A guess of the error so near to the tolerance is good enough.
+const NEARLY: f64 = 0.5;
+
+/// The error is the tolerance, or less by this part.
+const WINDOW: f64 = 1.0 / 16.0;
+
+/// A rise of the middle of the arc by 1 moves the error at its sides by this part.
+const AT_SIDES: f64 = 0.41;
+
+/// Largest half of the turn of the arc, in radians.
+const MAX_HALF_TURN: f64 = 0.75;
+
+/// An arc over an apex with the nodes at its ends.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ApexArc {
+    /// The arc, alone in its cell.
+    pub cell: Cell,
+    /// Its ends, with its tangents.
+    pub nodes: [Node; 2],
+    /// Their distances from the apex.
+    reach: [f64; 2],
+    /// How far the apex is to the left of the arc, about.
+    lift: f64,
+}
+
+/// Where an arc may reach.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Room {
+    /// Parameters that it must not reach.
+    pub limits: [f64; 2],
+    /// The distances from the apex that it may reach at most.
+    pub most: [f64; 2],
+}
+
+/// The arc over the apex at parameter `u`, if there is room for one. Another one over it, within another
+/// tolerance, tells where to begin.
+pub(super) fn apex_arc(
+    track: &Track,
+    u: f64,
+    room: &Room,
+    tolerance: f64,
+    other: Option<(&ApexArc, f64)>,
+) -> Option<ApexArc> {
+    let apex = track.cut_node(u, Side::After);
+    let most = room.most.map(|most| most.min(MAX_HALF_TURN / apex.curvature.abs()));
+    let mut near = room.limits;
+    let mut end = |side: usize, reach: f64| {
+        let node = track.node(track.beyond_distance(&apex, reach, (near[side], room.limits[side])));
+        near[side] = node.u;
+        node
+    };
+    let (mut reach, mut lift) = match other {
+        Some((other, tolerances)) => {
+            let factor = tolerances.powf(0.25);
+            ([0, 1].map(|i| (other.reach[i] * factor).min(most[i])), other.lift * tolerances)
+        }
+        None => ([0, 1].map(|side| guess(|reach| end(side, reach), &apex, most[side], tolerance)), 0.0),
+    };
+    let (mut good, mut widest) = (None, 0.0);
+    for _ in 0..MAX_CORRECTIONS {
+        if !reach.iter().all(|&r| r > track.noise() && r.is_finite()) {
+            break;
+        }
+        let nodes = [0, 1].map(|side| end(side, reach[side]));
+        let arc = over(&nodes, &apex, lift);
+        let errors = Errors::of(track, &arc, &nodes, &apex, tolerance);
+        if errors.largest() <= 1.0 {
+            if reach[0] + reach[1] > widest {
+                (good, widest) = (Some((arc, nodes, reach, lift)), reach[0] + reach[1]);
+            }
+            if [0, 1].iter().all(|&i| errors.sides[i] >= 1.0 - WINDOW || reach[i] >= most[i]) {
+                break;
+            }
+        }
+        if !errors.largest().is_finite() {
+            (reach, lift) = (reach.map(|r| 0.5 * r), 0.0);
+            continue;
+        }
+        let factors = [0, 1].map(|i| {
+            let balanced = 0.5 * (errors.sides[i] + errors.middle);
+            ((1.0 - 0.5 * WINDOW) / balanced).powf(0.25).clamp(0.5, 2.0).min(most[i] / reach[i])
+        });
+        let both = 0.5 * (factors[0] + factors[1]);
+        lift = (lift + errors.raised() * tolerance) * both * both * both * both;
+        reach = [0, 1].map(|i| reach[i] * factors[i]);
+    }
+    let (arc, [a, b], reach, lift) = good?;
+    let cell = Cell::of_one(track, arc, [a.u, b.u], tolerance);
+    let nodes = [Node { tangent: arc.start_tangent(), ..a }, Node { tangent: arc.end_tangent(), ..b }];
+    (cell.distance.bound <= tolerance).then_some(ApexArc { cell, nodes, reach, lift })
+}
+
+/// How far an arc on one side may reach, by the change of the curvature.
+fn guess(mut end: impl FnMut(f64) -> Node, apex: &Node, most: f64, tolerance: f64) -> f64 {
+    let mut reach = most;
+    for _ in 0..GUESSES {
+        let change = (end(reach).curvature - apex.curvature).abs();
+        let error = FLATNESS * change * reach * reach / tolerance;
+        if error <= 1.0 && reach == most {
+            break;
+        }
+        reach = (reach * error.powf(-0.25)).min(most);
+        if (NEARLY..NEARLY.recip()).contains(&error) {
+            break;
+        }
+    }
+    reach
+}
+
+/// Errors of an arc over an apex, in tolerances.
+#[derive(Clone, Copy, Debug)]
+struct Errors {
+    /// About the apex.
+    middle: f64,
+    /// Before it and behind it, on the other side of the arc.
+    sides: [f64; 2],
+    /// Whether the middle is to the left of the arc.
+    left: bool,
+}
+
+impl Errors {
+    fn of(track: &Track, arc: &Arc, [a, b]: &[Node; 2], apex: &Node, tolerance: f64) -> Errors {
+        let halves = [(a.u, apex.u), (apex.u, b.u)].map(|(from, to)| track.sides(arc, from, to));
+        let left = a.curvature + b.curvature > 2.0 * apex.curvature;
+        let of = |half: [f64; 2], left: bool| half[usize::from(!left)] / tolerance;
+        let middle = of(halves[0], left).max(of(halves[1], left));
+        Errors { middle, sides: halves.map(|half| of(half, !left)), left }
+    }
+
+    fn largest(&self) -> f64 {
+        self.middle.max(self.sides[0]).max(self.sides[1])
+    }
+
+    /// How far the middle of the arc must rise so that errors in the middle and at the sides are equal.
+    fn raised(&self) -> f64 {
+        let more = self.middle - self.sides[0].max(self.sides[1]);
+        if self.left { -more / (1.0 + AT_SIDES) } else { more / (1.0 + AT_SIDES) }
+    }
+}
+
+/// The arc between two nodes that passes the apex at a distance, which makes all errors larger.
+fn over([a, b]: &[Node; 2], apex: &Node, lift: f64) -> Arc {
+    let (v, w) = (apex.place - a.place, b.place - apex.place);
+    let chord = (b.place - a.place).length();
+    let through = v.cross(w) / (v.length() * w.length() + v.dot(w));
+    Arc { start: a.place, end: b.place, bulge: through + 2.0 * lift / chord }
+}

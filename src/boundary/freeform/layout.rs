@@ -1,0 +1,126 @@
+//! What biarcs are laid for, between which ends, and how many of them.
+
+use super::biarc::{Joint, Node};
+use super::piece::Bend;
+use super::spiral::Scheme;
+
+/// The least number of arcs tried, as a part of the number that the density says: it is not that
+/// precise for few arcs.
+const FIRST: f64 = 31.0 / 32.0;
+
+/// With more biarcs than this, the density is right but where it is too low.
+pub(super) const MANY: f64 = 3.0;
+
+/// Biarcs that are many are made shorter by this part than the density says, as it is not constant along
+/// one.
+pub(super) const SPARE: f64 = 1.0 / 64.0;
+
+/// A biarc turns by about this angle at most where the derivative of the curvature does not limit it,
+/// in radians. The tangents of a biarc must be within a right angle of its chord; so the curve need not
+/// be cut where it has turned by a right angle.
+const MAX_TURN: f64 = 1.25;
+
+/// What biarcs are laid for.
+#[derive(Clone, Copy)]
+pub(super) struct Goal {
+    /// Largest distance from the curve.
+    pub tolerance: f64,
+    /// Where arcs of a biarc meet.
+    pub joint: Joint,
+    /// Whether tangents are turned at nodes.
+    pub tilted: bool,
+    /// The error of an arc of length 1 where the derivative of the curvature is 1.
+    pub constant: f64,
+}
+
+/// The ends of a part of the curve.
+#[derive(Clone, Copy)]
+pub(super) struct Ends {
+    /// The nodes.
+    pub nodes: [Node; 2],
+    /// Whether an arc over an apex ends there.
+    pub apex_arcs: [bool; 2],
+    /// Whether one arc may be alone there.
+    pub singles: [bool; 2],
+    /// Whether the arc over an apex that ends there may be laid again within less.
+    pub yields: [bool; 2],
+}
+
+impl Ends {
+    /// Ends without arcs over apices.
+    pub fn of(nodes: [Node; 2]) -> Ends {
+        Ends { nodes, apex_arcs: [false; 2], singles: [false; 2], yields: [false; 2] }
+    }
+}
+
+/// Nothing fits.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lost {
+    /// The ends where something might if the arc over an apex there gave way.
+    pub ends: [bool; 2],
+}
+
+/// How many arcs, and which biarc is one arc alone.
+#[derive(Clone, Copy)]
+pub(super) struct Layout {
+    /// Number of biarcs, the arc alone included.
+    pub biarcs: usize,
+    /// Which is one arc alone.
+    pub single: Option<usize>,
+}
+
+impl Goal {
+    /// The goal of a scheme.
+    pub fn of(scheme: Scheme, tolerance: f64) -> Goal {
+        let (joint, constant) = match scheme {
+            Scheme::Osculating | Scheme::Bisection | Scheme::Published => (Joint::Osculating, 1.0 / 12.0),
+            Scheme::Plain => (Joint::MIDDLE, 2.0 / 81.0),
+            Scheme::Fewest | Scheme::Tilted => (Joint::MIDDLE, 3f64.sqrt() / 216.0),
+        };
+        Goal { tolerance, joint, tilted: matches!(scheme, Scheme::Fewest | Scheme::Tilted), constant }
+    }
+
+    /// Biarcs for each unit of the parameter.
+    pub fn density(&self, least: f64, bend: &Bend) -> f64 {
+        let error = 0.125 * self.constant * bend.slope / self.tolerance;
+        let turn = bend.curvature / MAX_TURN;
+        let (turn, least) = (turn * turn * turn, least * least * least);
+        bend.speed * (error * error + turn * turn + least * least).sqrt().cbrt()
+    }
+}
+
+impl Layout {
+    /// The layout of some arcs. With an odd number, one is alone in the middle, where it has the tangents
+    /// that biarcs beside it should have; of three, beside an arc over an apex where the curve bends most.
+    pub fn of(arcs: usize, ends: &Ends) -> Option<Layout> {
+        let biarcs = arcs.div_ceil(2);
+        if arcs.is_multiple_of(2) {
+            return Some(Layout { biarcs, single: None });
+        }
+        let bend = ends.nodes.map(|node| node.curvature.abs());
+        if biarcs > 2 {
+            let middle = if bend[0] > bend[1] { biarcs / 2 } else { (biarcs - 1) / 2 };
+            return Some(Layout { biarcs, single: Some(middle) });
+        }
+        let bend = [0, 1].map(|i| if ends.singles[i] { bend[i] } else { -1.0 });
+        let first = bend[0] > bend[1];
+        let possible = biarcs == 2 && ends.singles[usize::from(!first)];
+        possible.then_some(Layout { biarcs, single: Some(usize::from(!first)) })
+    }
+
+    /// The width of a cell in biarcs.
+    pub fn width(&self, i: usize) -> f64 {
+        if self.single == Some(i) { 0.5 } else { 1.0 }
+    }
+
+    /// Number of biarcs, a single arc for half of one.
+    pub fn all(&self) -> f64 {
+        self.biarcs as f64 - if self.single.is_some() { 0.5 } else { 0.0 }
+    }
+}
+
+/// The number of arcs to begin with, by the integral of the density.
+pub(super) fn first(total: f64) -> usize {
+    let least = if total > MANY { 1.0 + SPARE } else { FIRST };
+    ((2.0 * least * total).ceil() as usize).max(2)
+}

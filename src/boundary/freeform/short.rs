@@ -1,0 +1,200 @@
+//! A proven bound on the distance between an arc and a short part of a piece of low degree, in a few
+//! steps and without division.
+//!
+//! **Needs** what [`super::bound`] needs, and gives the same answer where it gives one. **Guarantees** a
+//! bound that holds and is within the last of [`SLACKS`] of the largest distance. **Does not** answer for parts that
+//! turn much, for which [`super::bound`] is there.
+//!
+//! **Method.** In the middle of the part the numerator `N` of the power (see [`super::bound`]) and its
+//! denominator `D` are polynomials of degree 6 on -1..=1. An arc with common tangents errs like a cubic
+//! and little else, so stationary places of the cubic, and a step or two of Newton's method, give the
+//! largest value `m` of `|N / D|`. That `b D - N` and `b D + N` are positive for a `b` little above `m` is
+//! then shown by the minimum of their cubic part, from which the other Chebyshev coefficients are
+//! taken off. The angle is monotone by the ranges of its factors.
+
+use super::bound::{Distance, Frame};
+use super::piece::Piece;
+
+/// Largest degree of a piece.
+const DEGREE: usize = 3;
+
+/// The bound is above the largest distance found by one of these parts of it, or is the limit.
+const SLACKS: [f64; 3] = [1.0 / 256.0, 1.0 / 64.0, 1.0 / 16.0];
+
+/// Steps of Newton's method for a stationary place.
+const STEPS: usize = 2;
+
+/// A polynomial of degree 6.
+type Sextic = [f64; 2 * DEGREE + 1];
+
+/// Coordinates in the frame of an arc, times the weight, and the weight, by powers of a variable that
+/// runs from -1 to 1.
+struct Local {
+    x: [f64; DEGREE + 1],
+    y: [f64; DEGREE + 1],
+    w: [f64; DEGREE + 1],
+    rational: bool,
+}
+
+/// Distance between the arc of a frame and the part of a piece between two parameters; a bound below
+/// `limit` need not be tight. `None` where it takes more to tell.
+pub(super) fn measure(frame: &Frame, piece: &Piece, (from, to): (f64, f64), limit: f64) -> Option<Distance> {
+    if piece.degree() > DEGREE {
+        return None;
+    }
+    let local = Local::of(frame, piece, 0.5 * (from + to), 0.5 * (to - from));
+    if !local.runs_on(frame) {
+        return None;
+    }
+    let (n, d) = local.power(frame);
+    let found = values(&n, &d, local.rational).iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    let within = frame.power(limit);
+    let near = |slack: f64| {
+        let bound = found * (1.0 + slack);
+        let bound = if found <= within { bound.min(within) } else { bound };
+        exceeds(&n, &d, bound).then_some(bound)
+    };
+    let bound = SLACKS.iter().find_map(|&slack| near(slack))?;
+    let [distance, found] = [bound, found].map(|power| frame.distance(power));
+    // The round-off of a power there and back must not matter at the limit itself.
+    let bound = if bound <= within { distance.min(limit) } else { distance };
+    Some(Distance { bound, found: found.min(bound) })
+}
+
+/// How far the part of a piece between two parameters is to the left and to the right of an arc, as found
+/// and not proven. `None` for pieces of higher degree.
+pub(super) fn sides(frame: &Frame, piece: &Piece, (from, to): (f64, f64)) -> Option<[f64; 2]> {
+    if piece.degree() > DEGREE {
+        return None;
+    }
+    let local = Local::of(frame, piece, 0.5 * (from + to), 0.5 * (to - from));
+    let (n, d) = local.power(frame);
+    let found = values(&n, &d, local.rational);
+    let most = |sign: f64| frame.distance(found.iter().fold(0.0, |m: f64, v| m.max(sign * v)));
+    Some([most(1.0), most(-1.0)])
+}
+
+impl Local {
+    fn of(frame: &Frame, piece: &Piece, middle: f64, half: f64) -> Local {
+        let [mut x, mut y, mut w] = piece.powers(middle);
+        let mut scale = 1.0;
+        for i in 0..=DEGREE {
+            let (u, v) = (x[i] - frame.middle.x * w[i], y[i] - frame.middle.y * w[i]);
+            x[i] = scale * (u * frame.along.x + v * frame.along.y);
+            y[i] = scale * (frame.along.x * v - frame.along.y * u);
+            w[i] *= scale;
+            scale *= half;
+        }
+        Local { x, y, w, rational: piece.is_rational() }
+    }
+
+    /// Whether the angle seen from the center rises all along: as in [`super::bound`], by the ranges of
+    /// coordinates and derivatives.
+    fn runs_on(&self, frame: &Frame) -> bool {
+        let k = 2.0 * frame.half_curvature.abs();
+        let most = |c: &[f64; 4]| c[0].abs() + c[1].abs() + c[2].abs() + c[3].abs();
+        let change = |c: &[f64; 4]| 2.0 * c[2].abs() + 3.0 * c[3].abs();
+        let (x, y, w) = (most(&self.x), most(&self.y), most(&self.w));
+        let least_w = 2.0 * self.w[0] - w;
+        let dw = self.w[1].abs() + change(&self.w);
+        let dx = [self.x[1] - change(&self.x), self.x[1].abs() + change(&self.x)];
+        let dy = self.y[1].abs() + change(&self.y);
+        let along = dx[0] * least_w - x * dw;
+        let toward = frame.cos * least_w - k * y;
+        along > 0.0 && least_w > 0.0 && toward > 0.0 && toward * along > k * x * (dy * w + y * dw)
+    }
+
+    /// Numerator and denominator of the power.
+    fn power(&self, frame: &Frame) -> (Sextic, Sextic) {
+        let (k, q) = (frame.half_curvature, frame.half * frame.half);
+        let (mut n, mut d) = ([0.0; 7], [0.0; 7]);
+        if !self.rational {
+            for i in 0..=DEGREE {
+                n[i] += frame.cos * self.y[i];
+                for j in 0..=DEGREE {
+                    n[i + j] -= k * (self.x[i] * self.x[j] + self.y[i] * self.y[j]);
+                }
+            }
+            n[0] += k * q;
+            d[0] = 1.0;
+            return (n, d);
+        }
+        for i in 0..=DEGREE {
+            for j in 0..=DEGREE {
+                let ww = self.w[i] * self.w[j];
+                d[i + j] += ww;
+                n[i + j] += frame.cos * self.y[i] * self.w[j]
+                    - k * (self.x[i] * self.x[j] + self.y[i] * self.y[j] - q * ww);
+            }
+        }
+        (n, d)
+    }
+}
+
+/// Value, first and second derivative.
+#[inline]
+fn at(p: &Sextic, z: f64) -> [f64; 3] {
+    let (mut v, mut v1, mut v2) = (0.0, 0.0, 0.0);
+    for c in p.iter().rev() {
+        v2 = v2 * z + v1;
+        v1 = v1 * z + v;
+        v = v * z + c;
+    }
+    [v, v1, 2.0 * v2]
+}
+
+/// The coefficients of the cubic that is left without the Chebyshev polynomials of degree 4 to 6, and
+/// the sum of what those contribute at most.
+#[inline]
+fn cubic(p: &Sextic) -> ([f64; 4], f64) {
+    // z^6 = (10 + 15 T2 + 6 T4 + T6) / 32, z^5 = (10 T1 + 5 T3 + T5) / 16, z^4 = (3 + 4 T2 + T4) / 8.
+    let [p0, p1, p2, p3, p4, p5, p6] = *p;
+    let (t2, t3) = (0.5 * p4 + 15.0 / 32.0 * p6, 0.3125 * p5);
+    let rest = (0.125 * p4 + 0.1875 * p6).abs() + 0.0625 * p5.abs() + 0.03125 * p6.abs();
+    let c0 = p0 + 0.375 * p4 + 0.3125 * p6 - t2;
+    let c1 = p1 + 0.625 * p5 - 3.0 * t3;
+    ([c0, c1, p2 + 2.0 * t2, p3 + 4.0 * t3], rest)
+}
+
+/// Places inside where a cubic is stationary; others are ends.
+#[inline]
+fn stationary([_, c1, c2, c3]: &[f64; 4]) -> [f64; 2] {
+    let root = (c2 * c2 - 3.0 * c1 * c3).max(0.0).sqrt();
+    let q = -(c2 + root.copysign(*c2));
+    let inside = |z: f64| if z.abs() < 1.0 { z } else { 1.0 };
+    [inside(q / (3.0 * c3)), inside(c1 / q)]
+}
+
+/// Values of `n / d` at the ends and where it is stationary.
+fn values(n: &Sextic, d: &Sextic, rational: bool) -> [f64; 4] {
+    let ratio = |z: f64| at(n, z)[0] / if rational { at(d, z)[0] } else { 1.0 };
+    let inner = stationary(&cubic(n).0).map(|mut z| {
+        for _ in 0..STEPS {
+            let [v, v1, v2] = at(n, z);
+            let step = if rational {
+                let [w, w1, w2] = at(d, z);
+                (v1 * w - v * w1) / (v2 * w - v * w2)
+            } else {
+                v1 / v2
+            };
+            let next = z - step;
+            z = if next.abs() <= 1.0 { next } else { z };
+        }
+        ratio(z)
+    });
+    [ratio(-1.0), ratio(1.0), inner[0], inner[1]]
+}
+
+/// Whether `bound d` is above the absolute value of `n` for certain.
+fn exceeds(n: &Sextic, d: &Sextic, bound: f64) -> bool {
+    [1.0, -1.0].iter().all(|sign| {
+        let mut p = [0.0; 7];
+        for i in 0..7 {
+            p[i] = bound * d[i] + sign * n[i];
+        }
+        let (c, rest) = cubic(&p);
+        let value = |z: f64| c[0] + z * (c[1] + z * (c[2] + z * c[3]));
+        let [a, b] = stationary(&c);
+        value(-1.0).min(value(1.0)).min(value(a)).min(value(b)) >= rest
+    })
+}
