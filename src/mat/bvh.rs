@@ -8,6 +8,7 @@
 
 use crate::geom::{Bounds, Point};
 use rayon::prelude::*;
+use wide::f32x8;
 
 const WIDTH: usize = 8;
 
@@ -15,10 +16,10 @@ const WIDTH: usize = 8;
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
 struct Boxes {
-    min_x: [f32; WIDTH],
-    max_x: [f32; WIDTH],
-    min_y: [f32; WIDTH],
-    max_y: [f32; WIDTH],
+    min_x: f32x8,
+    max_x: f32x8,
+    min_y: f32x8,
+    max_y: f32x8,
 }
 
 /// The hierarchy; leaves are numbered like the boxes it was built from.
@@ -92,6 +93,9 @@ impl Bvh {
         range: std::ops::Range<usize>,
         mut visit: impl FnMut(u32) -> Option<SearchDisk>,
     ) {
+        if range.is_empty() {
+            return;
+        }
         let mut reach = Reach::of(&disk);
         let mut stack = [(0u32, 0u32); STACK];
         stack[0] = (self.levels.len() as u32 - 1, 0);
@@ -100,43 +104,50 @@ impl Bvh {
             open -= 1;
             let (level, index) = stack[open];
             let boxes = &self.levels[level as usize][index as usize];
-            let mut distances = boxes.squared_distances(&reach);
+            let distances = boxes.squared_distances(&reach);
+            let first = index as usize * WIDTH;
+            let mut bits = distances.simd_le(reach.squared).to_bitmask();
+            bits &= inside(&range, first, level);
             if level == 0 {
-                for j in 0..WIDTH {
-                    let leaf = index as usize * WIDTH + j;
-                    if distances[j] <= reach.squared
-                        && range.contains(&leaf)
-                        && let Some(smaller) = visit(leaf as u32)
-                    {
+                while bits != 0 {
+                    let j = bits.trailing_zeros();
+                    bits &= bits - 1;
+                    if let Some(smaller) = visit(first as u32 + j) {
                         reach = Reach::of(&smaller);
-                        distances = boxes.squared_distances(&reach);
+                        bits &= boxes.squared_distances(&reach).simd_le(reach.squared).to_bitmask();
                     }
                 }
                 continue;
             }
-            let span = WIDTH.pow(level);
-            let mut nearest = (f32::INFINITY, WIDTH);
-            for (j, &d) in distances.iter().enumerate() {
-                let first = (index as usize * WIDTH + j) * span;
-                if d <= reach.squared && first < range.end && first + span > range.start {
-                    if d < nearest.0 {
-                        if nearest.1 < WIDTH {
-                            stack[open] = (level - 1, index * WIDTH as u32 + nearest.1 as u32);
-                            open += 1;
-                        }
-                        nearest = (d, j);
-                    } else {
-                        stack[open] = (level - 1, index * WIDTH as u32 + j as u32);
-                        open += 1;
-                    }
+            // The nearest child is opened first, so it is pushed last.
+            let distances = distances.to_array();
+            let (mut nearest, mut at) = (f32::INFINITY, open);
+            while bits != 0 {
+                let j = bits.trailing_zeros();
+                bits &= bits - 1;
+                stack[open] = (level - 1, first as u32 + j);
+                if distances[j as usize] < nearest {
+                    (nearest, at) = (distances[j as usize], open);
                 }
-            }
-            if nearest.1 < WIDTH {
-                stack[open] = (level - 1, index * WIDTH as u32 + nearest.1 as u32);
                 open += 1;
+            }
+            if at < open {
+                stack.swap(at, open - 1);
             }
         }
     }
+}
+
+/// The children of a node whose leaves lie in a range, one bit each; `first` is the number of the first
+/// child on its level.
+#[inline]
+fn inside(range: &std::ops::Range<usize>, first: usize, level: u32) -> u32 {
+    const ALL: u32 = (1 << WIDTH) - 1;
+    /// A node has as many leaves as this to the power of its level.
+    const BITS: u32 = WIDTH.ilog2();
+    let begin = (range.start >> (BITS * level)).saturating_sub(first).min(WIDTH);
+    let last = ((range.end - 1) >> (BITS * level)) + 1;
+    (ALL << begin) & !(ALL << last.saturating_sub(first).min(WIDTH))
 }
 
 /// Steps of the Hilbert curve along a side of the unit frame.
@@ -182,9 +193,9 @@ fn spread(x: u32) -> u32 {
 /// A search disk in `f32`, its radius rounded up by the round-off of center and boxes.
 #[derive(Clone, Copy)]
 struct Reach {
-    x: f32,
-    y: f32,
-    squared: f32,
+    x: f32x8,
+    y: f32x8,
+    squared: f32x8,
 }
 
 impl Reach {
@@ -197,41 +208,41 @@ impl Reach {
         let radius =
             disk.radius * (1.0 + ROUNDINGS) + magnitude * ROUNDINGS + f64::from(f32::MIN_POSITIVE).sqrt();
         let radius = radius as f32;
-        Reach { x: disk.center.x as f32, y: disk.center.y as f32, squared: radius * radius }
+        let splat = |c: f64| f32x8::splat(c as f32);
+        Reach { x: splat(disk.center.x), y: splat(disk.center.y), squared: f32x8::splat(radius * radius) }
     }
 }
 
 impl Boxes {
     const EMPTY: Boxes = Boxes {
-        min_x: [f32::INFINITY; WIDTH],
-        max_x: [f32::NEG_INFINITY; WIDTH],
-        min_y: [f32::INFINITY; WIDTH],
-        max_y: [f32::NEG_INFINITY; WIDTH],
+        min_x: f32x8::splat(f32::INFINITY),
+        max_x: f32x8::splat(f32::NEG_INFINITY),
+        min_y: f32x8::splat(f32::INFINITY),
+        max_y: f32x8::splat(f32::NEG_INFINITY),
     };
 
     fn set(&mut self, j: usize, b: &Bounds) {
-        self.min_x[j] = (b.min.x as f32).next_down();
-        self.min_y[j] = (b.min.y as f32).next_down();
-        self.max_x[j] = (b.max.x as f32).next_up();
-        self.max_y[j] = (b.max.y as f32).next_up();
+        self.min_x.as_mut_array()[j] = (b.min.x as f32).next_down();
+        self.min_y.as_mut_array()[j] = (b.min.y as f32).next_down();
+        self.max_x.as_mut_array()[j] = (b.max.x as f32).next_up();
+        self.max_y.as_mut_array()[j] = (b.max.y as f32).next_up();
     }
 
     fn set_around(&mut self, j: usize, child: &Boxes) {
-        self.min_x[j] = child.min_x.iter().copied().fold(f32::INFINITY, f32::min);
-        self.min_y[j] = child.min_y.iter().copied().fold(f32::INFINITY, f32::min);
-        self.max_x[j] = child.max_x.iter().copied().fold(f32::NEG_INFINITY, f32::max);
-        self.max_y[j] = child.max_y.iter().copied().fold(f32::NEG_INFINITY, f32::max);
+        let least = |of: f32x8| of.to_array().into_iter().fold(f32::INFINITY, f32::min);
+        let greatest = |of: f32x8| of.to_array().into_iter().fold(f32::NEG_INFINITY, f32::max);
+        self.min_x.as_mut_array()[j] = least(child.min_x);
+        self.min_y.as_mut_array()[j] = least(child.min_y);
+        self.max_x.as_mut_array()[j] = greatest(child.max_x);
+        self.max_y.as_mut_array()[j] = greatest(child.max_y);
     }
 
+    /// Squared distance of each box from the center.
     #[inline]
-    fn squared_distances(&self, reach: &Reach) -> [f32; WIDTH] {
-        let mut out = [0f32; WIDTH];
-        for (j, out) in out.iter_mut().enumerate() {
-            let dx = (self.min_x[j] - reach.x).max(reach.x - self.max_x[j]).max(0.0);
-            let dy = (self.min_y[j] - reach.y).max(reach.y - self.max_y[j]).max(0.0);
-            *out = dx * dx + dy * dy;
-        }
-        out
+    fn squared_distances(&self, reach: &Reach) -> f32x8 {
+        let dx = (self.min_x - reach.x).fast_max(reach.x - self.max_x).fast_max(f32x8::ZERO);
+        let dy = (self.min_y - reach.y).fast_max(reach.y - self.max_y).fast_max(f32x8::ZERO);
+        dx * dx + dy * dy
     }
 }
 
