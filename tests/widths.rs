@@ -1,6 +1,6 @@
 //! The report knows how wide is cut: the largest step, what is cut at full width, and what remains.
 
-use medial::{ArcSpline, Job, Mat, Path, Pocket, Start, Tolerance, Units, point};
+use medial::{ArcSpline, Job, Mat, Move, Path, Pocket, Start, Tolerance, Units, point};
 
 fn mat(loops: Vec<ArcSpline>) -> Mat {
     Pocket::from_loops(loops, Tolerance::MM).unwrap().medial_axis().unwrap()
@@ -105,4 +105,35 @@ fn what_pockets_amount_to_adds_up_to_the_path() {
     assert!((sum(|t| t.rapid_length) - path.totals.rapid_length).abs() < 1e-6);
     assert_eq!(sum(|t| t.retracts as f64), path.totals.retracts as f64);
     assert!(path.pockets.iter().all(|p| p.totals.retracts > 0 && p.most_retracts >= 2));
+}
+
+/// Length of what is cut at the floor at less than the feed rate.
+fn slow_length(path: &Path, job: &Job) -> f64 {
+    let floor = job.top - job.depth;
+    let slow = |pair: &&[Move]| {
+        let rate = match pair[1] {
+            Move::Rapid { .. } => return false,
+            Move::Feed { rate, .. } | Move::Arc { rate, .. } => rate,
+        };
+        pair.iter().all(|m| m.to().z == floor) && rate < job.feed
+    };
+    path.moves.windows(2).filter(slow).map(|pair| pair[0].to().distance(pair[1].to())).sum()
+}
+
+#[test]
+fn first_passes_and_corners_are_cut_more_slowly_if_asked() {
+    let slow = Job { slow: 0.5, ..job() };
+    let (plain, slowed) = (path(&rectangle(), &job()), path(&rectangle(), &slow));
+    assert_eq!(slow_length(&plain, &job()), 0.0);
+    // All of the innermost pass, and 3 + 2.4 + 2.4 round each corner of the seven others, but on the
+    // short sides of the first of these, which are 5.2 long.
+    let corner = 3.0 + 2.0 * 2.4;
+    let expected = 2.0 * (20.4 + 0.4) + 2.0 * (5.2 + corner) + 6.0 * 4.0 * corner;
+    let length = slow_length(&slowed, &slow);
+    assert!((length - expected).abs() < 1e-6, "{length} {expected}");
+    assert!((slowed.totals.cut_length - plain.totals.cut_length).abs() < 1e-6);
+    assert!(slowed.totals.minutes > plain.totals.minutes);
+    let outside = Job { start: Start::Outside, ..slow };
+    let length = slow_length(&path(&rectangle(), &outside), &outside);
+    assert!((length - 2.0 * (54.0 + 34.0)).abs() < 1e-6, "{length}");
 }

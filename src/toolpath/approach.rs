@@ -16,7 +16,7 @@ const LINK_FLATNESS: f64 = 1.0 / 64.0;
 
 /// How many times longer than lifting the tool a link at depth may take: each time that the tool gets
 /// down it leaves a mark, and machines lift more slowly than they say.
-const STAY_DOWN: f64 = 2.0;
+const STAY_DOWN: f64 = 3.0;
 
 /// A way down beside a pass, into a neighbor that is cut already, and straight over from there.
 struct Approach {

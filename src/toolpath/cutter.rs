@@ -19,8 +19,8 @@ pub struct Totals {
     pub arcs: usize,
     /// Straight feed moves.
     pub lines: usize,
-    /// Time, with rapids at 5000 mm (200 inch) per minute that start and stop at 500 mm/s2 (20 in/s2),
-    /// and feed moves without acceleration.
+    /// Time, with rapids at 5000 mm (200 inch) per minute, and the acceleration of the job: the tool stops
+    /// at corners.
     pub minutes: f64,
 }
 
@@ -38,14 +38,14 @@ impl Totals {
     }
 }
 
-/// Minutes of a rapid, which starts and stops, as the estimate of time assumes: at most 5000 mm (200
-/// inch) per minute and 500 mm/s2 (20 in/s2), a light machine. The decision between a link and a way
-/// over depends on it.
-fn rapid_minutes(length: f64, units: Units) -> f64 {
+/// Minutes of a rapid, which starts and stops: at most 5000 mm (200 inch) per minute, a light machine.
+/// The decision between a link and a way over depends on it.
+pub(super) fn rapid_minutes(length: f64, job: &Job) -> f64 {
     const SECONDS: f64 = 60.0;
-    let (rate, acceleration) = match units {
-        Units::Mm => (5000.0, 500.0 * SECONDS * SECONDS),
-        Units::Inch => (200.0, 20.0 * SECONDS * SECONDS),
+    let acceleration = job.acceleration * SECONDS * SECONDS;
+    let rate = match job.units {
+        Units::Mm => 5000.0,
+        Units::Inch => 200.0,
     };
     if length * acceleration < rate * rate {
         2.0 * (length / acceleration).sqrt()
@@ -111,7 +111,7 @@ impl<'a> Cutter<'a> {
         let clearance = self.clearance();
         let near = (surface + self.job.retract).min(clearance);
         let rapids = [clearance - at.z, at.xy().distance(p), clearance - near];
-        let rapids: f64 = rapids.into_iter().map(|length| rapid_minutes(length, self.job.units)).sum();
+        let rapids: f64 = rapids.into_iter().map(|length| rapid_minutes(length, self.job)).sum();
         rapids + (near - surface) / self.job.plunge_feed
     }
 
@@ -126,6 +126,12 @@ impl<'a> Cutter<'a> {
     pub fn cut(&mut self, e: &Element) {
         let z = self.at.map_or(self.clearance(), |at| at.z);
         self.follow(e, z, self.job.feed);
+    }
+
+    /// The same at a share of the feed rate.
+    pub fn cut_at(&mut self, e: &Element, share: f64) {
+        let z = self.at.map_or(self.clearance(), |at| at.z);
+        self.follow(e, z, share * self.job.feed);
     }
 
     /// Along an element to a height, evenly.
@@ -151,7 +157,7 @@ impl<'a> Cutter<'a> {
         }
         let length = self.at.map_or(0.0, |at| at.distance(to));
         self.totals.rapid_length += length;
-        self.totals.minutes += rapid_minutes(length, self.job.units);
+        self.totals.minutes += rapid_minutes(length, self.job);
         self.moves.push(Move::Rapid { to });
         self.at = Some(to);
     }

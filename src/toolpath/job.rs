@@ -91,8 +91,13 @@ pub struct Job {
     pub ramp_angle: f64,
     /// Feed rate of cuts.
     pub feed: f64,
+    /// Share of the feed rate where more is cut than the step: on first passes, in necks and corners.
+    pub slow: f64,
     /// Feed rate straight down, and of the downward part of a ramp at most.
     pub plunge_feed: f64,
+    /// Largest acceleration of the machine in `units` per second squared, for the estimate of time and
+    /// the choice between links and lifts.
+    pub acceleration: f64,
     /// Height of rapids above the top.
     pub clearance: f64,
     /// Height above the stock where feed begins.
@@ -102,9 +107,9 @@ pub struct Job {
 impl Job {
     /// A job with the defaults of its unit, for a tool diameter and a step.
     pub fn new(units: Units, tool: f64, step: f64) -> Job {
-        let [depth, clearance, retract, feed, plunge_feed] = match units {
-            Units::Mm => [1.0, 5.0, 1.0, 600.0, 200.0],
-            Units::Inch => [0.04, 0.2, 0.04, 24.0, 8.0],
+        let [depth, clearance, retract, feed, plunge_feed, acceleration] = match units {
+            Units::Mm => [1.0, 5.0, 1.0, 600.0, 200.0, 500.0],
+            Units::Inch => [0.04, 0.2, 0.04, 24.0, 8.0, 20.0],
         };
         Job {
             units,
@@ -125,7 +130,9 @@ impl Job {
             slot: false,
             ramp_angle: 3.0,
             feed,
+            slow: 1.0,
             plunge_feed,
+            acceleration,
             clearance,
             retract,
         }
@@ -164,7 +171,9 @@ impl Job {
             "above 0 and below 90 degrees",
         )?;
         above_0("feed", self.feed)?;
+        require("slow", self.slow, self.slow > 0.0 && self.slow <= 1.0, "above 0 and at most 1")?;
         above_0("plunge-feed", self.plunge_feed)?;
+        above_0("acceleration", self.acceleration)?;
         above_0("clearance", self.clearance)?;
         above_0("retract", self.retract)?;
         require("retract", self.retract, self.retract <= self.clearance, "at most the clearance")
@@ -251,9 +260,9 @@ mod tests {
             assert!(refused(|j| j.depth = bad));
             assert!(refused(|j| j.step_down = Some(bad)));
             assert!(refused(|j| j.feed = bad));
-            assert!(refused(|j| j.plunge_feed = bad));
+            assert!(refused(|j| j.plunge_feed = bad) && refused(|j| j.slow = bad));
             assert!(bad == 0.0 || refused(|j| j.lead = Some(bad)));
-            assert!(refused(|j| j.clearance = bad));
+            assert!(refused(|j| j.clearance = bad) && refused(|j| j.acceleration = bad));
             assert!(refused(|j| j.ramp_angle = bad));
         }
         assert!(refused(|j| j.step = 6.1) && !refused(|j| j.step = 6.0));

@@ -15,7 +15,8 @@
 //! up, across, and down into a neighbor (`approach`); what has no neighbor that is cut is entered by
 //! a helix or a ramp into the stock (`entry`). What stands between levels more than the tool radius
 //! apart is cut along the axis (`crest`, `trim`), when the tool comes by for the last time (`run`).
-//! Finishing passes are met and left on arcs (`lead`).
+//! Finishing passes are met and left on arcs (`lead`). How wide is cut is known from the axis (`width`),
+//! and where it is more than the step the feed may be less (`pace`).
 
 mod approach;
 mod course;
@@ -28,6 +29,7 @@ mod job;
 mod lead;
 mod moves;
 mod nest;
+mod pace;
 mod path;
 mod plan;
 mod rest;
@@ -36,6 +38,7 @@ mod route;
 mod run;
 #[cfg(test)]
 mod tests;
+mod time;
 mod tour;
 mod trim;
 mod warning;

@@ -6,6 +6,7 @@ use super::plan::{Amounts, IsClear, MAX_MOVES, Planner};
 use super::rest::{Rest, rest};
 use super::roads::Roads;
 use super::route::route;
+use super::time::minutes;
 use super::{Job, Move, Warning};
 use crate::error::Error;
 use crate::geom::{Element, Point};
@@ -185,10 +186,20 @@ impl Job {
         levels.get(rough).map_or(0, |level| self.heights().len() * peaks(level) + wall)
     }
 
+    /// How long it takes, each pocket and all.
+    fn estimate(&self, path: &mut Path) {
+        for own in &mut path.pockets {
+            let before = own.moves.start.checked_sub(1).map(|i| path.moves[i].to());
+            own.totals.minutes = minutes(before, &path.moves[own.moves.clone()], self);
+        }
+        path.totals.minutes = path.pockets.iter().map(|own| own.totals.minutes).sum();
+    }
+
     fn conclude(&self, mut path: Path, mut planner: Planner) -> Result<Path, Error> {
         path.warnings.extend(planner.finish());
         path.moves = std::mem::take(&mut planner.cutter.moves);
         path.totals = planner.cutter.totals;
+        self.estimate(&mut path);
         if path.pockets.iter().any(|p| p.machined) {
             return Ok(path);
         }

@@ -82,6 +82,8 @@ pub(super) struct Ground<'a> {
     pub done: Vec<bool>,
     /// The pass in whose end the tool stands.
     pub last: Option<usize>,
+    /// What of each pass has no neighbor inside; `None` where that is all of it. Empty if not asked for.
+    pub fresh: Vec<Option<Vec<Element>>>,
     /// Where each pass should begin, if that is known before.
     pub begin: Vec<Option<Point>>,
 }
@@ -137,6 +139,7 @@ impl<'a> Planner<'a> {
             crests_of,
             done,
             last: None,
+            fresh: Vec::new(),
             begin,
         };
         let needed = order.into_iter().filter(|&p| !ground.is_covered(p));
@@ -146,7 +149,7 @@ impl<'a> Planner<'a> {
             ground.plan_beginnings(&wall);
         }
         let rank = ground.settle_crests(rough.iter().chain(&wall));
-        self.widths(&ground, &rough, &wall, &rank);
+        self.widths(&mut ground, &rough, &wall, &rank);
         let heights = self.job.heights();
         let mut surface = self.job.top;
         for &z in &heights {
@@ -198,9 +201,9 @@ impl<'a> Planner<'a> {
     }
 
     /// How wide the passes cut, at all heights.
-    fn widths(&mut self, ground: &Ground, rough: &[usize], wall: &[usize], rank: &[usize]) {
+    fn widths(&mut self, ground: &mut Ground, rough: &[usize], wall: &[usize], rank: &[usize]) {
         let Some(roads) = &ground.roads else { return };
-        let Ground { levels, nest, slack, .. } = ground;
+        let Ground { levels, nest, slack, .. } = &*ground;
         let (tool_radius, flat) = (self.job.radius(), self.job.overlap());
         let reach = Reach { levels, nest, tool_radius, flat, slack: *slack };
         let widths = Widths::new(self.job, roads, &reach, rank);
@@ -208,6 +211,7 @@ impl<'a> Planner<'a> {
         let heights = self.job.heights().len() as f64;
         self.amounts.full_width_length += heights * full(rough) + full(wall);
         (self.amounts.largest_step, self.amounts.largest_step_at) = (widths.largest_step, widths.at);
+        ground.fresh = widths.fresh;
     }
 
     fn passes(&mut self, ground: &mut Ground, order: &[usize], height: Height) -> Result<(), Error> {

@@ -175,11 +175,23 @@ impl<'a> Roads<'a> {
         let around = [site, s.prev, s.next];
         let sites = &self.mat.sites;
         let farther = [sites[s.prev as usize].prev, sites[s.next as usize].next];
-        around.into_iter().chain(farther).find_map(|site| self.foot_beside(site, p))
+        let near = around.into_iter().chain(farther);
+        let mut feet = near.flat_map(|site| self.feet_beside(site, p)).peekable();
+        // At a seam of the boundary there may be pieces without length that lead elsewhere; at the end of
+        // the axis every direction is that of a spoke.
+        let first = feet.peek().copied();
+        feet.find(|&(spot, side)| self.is_foot(spot, side, p)).or(first)
+    }
+
+    /// Whether the spoke that ends in a spot passes through a place.
+    fn is_foot(&self, spot: Spot, side: usize, p: Point) -> bool {
+        let d = self.distance(spot.edge, side, p);
+        let through = self.on_spoke(spot.edge, side, self.place(spot), d);
+        through.distance(p) <= PLACE_ERROR * p.x.abs().max(p.y.abs())
     }
 
     /// The same for places whose foot is on this site.
-    fn foot_beside(&self, site: u32, p: Point) -> Option<(Spot, usize)> {
+    fn feet_beside(&self, site: u32, p: Point) -> Vec<(Spot, usize)> {
         let s = &self.mat.sites[site as usize];
         let c = self.mat.frame.enter(p);
         let (distance, normal) = s.carrier_distance(c);
@@ -187,7 +199,7 @@ impl<'a> Roads<'a> {
         let after = self.by_site.partition_point(|&(of, at, _)| (of, at) <= (site, position));
         let range = after.saturating_sub(2)..(after + 1).min(self.by_site.len());
         let near = self.by_site[range].iter().filter(|(of, ..)| *of == site);
-        near.filter_map(|&(_, _, piece)| self.meet(piece, p, normal)).next()
+        near.filter_map(|&(_, _, piece)| self.meet(piece, p, normal)).collect()
     }
 
     /// Where the ray from a place along a normal meets the edge of a piece.
@@ -352,8 +364,7 @@ mod tests {
             (12.0, 25.0, 1.0),
             (36.0, 25.0, 0.414_213_562_373_095_1),
         ]);
-        let a = 5.0 * std::f64::consts::FRAC_1_SQRT_2;
-        let hole = ArcSpline::closed([(24.0 + a, 25.0 + a, -1.0), (24.0 - a, 25.0 - a, -1.0)]);
+        let hole = ArcSpline::circle(point(24.0, 25.0), 5.0).reversed();
         let mat = Pocket::from_loops(vec![outer, hole], Tolerance::MM).unwrap().medial_axis().unwrap();
         let roads = Roads::new(&mat);
         for (x, y) in [(0.0, 1.0), (-1.0, 0.0), (1.0, 0.0), (0.0, -1.0)] {

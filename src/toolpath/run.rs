@@ -3,8 +3,10 @@
 //! A crest is run when the tool has come by it for the last time: behind it all is cut then, and what
 //! the tool meets is what the passes on its sides left.
 
+use super::Job;
 use super::course::Course;
 use super::crest::Gate;
+use super::pace::Pace;
 use super::plan::{Ground, Planner};
 use crate::error::Error;
 use crate::geom::{Element, Point};
@@ -24,21 +26,40 @@ impl Planner<'_> {
     /// Cuts a pass and the crests that are its own.
     pub fn run(&mut self, ground: &Ground, pass: usize, course: &Course) -> Result<(), Error> {
         let mut stops = ground.stops(pass, course).into_iter().peekable();
+        let pace = ground.pace(self.job, pass, course);
+        let mut start = 0.0;
         for (i, e) in course.elements.iter().enumerate() {
             let mut gone = 0.0;
             while let Some(stop) = stops.next_if(|s| s.element == i) {
                 let part = e.part(gone, stop.t);
                 if part.length() > ground.slack {
-                    self.cutter.cut(&part);
+                    self.cut_paced((&pace, start), e, [gone, stop.t], ground.slack);
                     gone = stop.t;
                 }
                 self.leave_for(ground, stop, if gone > 0.0 { e.point_at(gone) } else { e.start })?;
             }
             if gone < 1.0 {
-                self.cutter.cut(&e.part(gone, 1.0));
+                self.cut_paced((&pace, start), e, [gone, 1.0], ground.slack);
             }
+            start += e.length();
         }
         Ok(())
+    }
+
+    /// Cuts a part of an element that starts at this length along its course.
+    fn cut_paced(&mut self, (pace, start): (&Pace, f64), e: &Element, [from, to]: [f64; 2], slack: f64) {
+        let length = e.length();
+        let ends = [start + from * length, start + to * length];
+        // The ends stay as they are, to the last bit.
+        let parameter = |s: f64| match s {
+            s if s == ends[0] => from,
+            s if s == ends[1] => to,
+            s => (s - start) / length,
+        };
+        for ([a, b], is_slow) in pace.parts(ends[0], ends[1], slack) {
+            let part = e.part(parameter(a), parameter(b));
+            self.cutter.cut_at(&part, if is_slow { self.job.slow } else { 1.0 });
+        }
     }
 
     fn leave_for(&mut self, ground: &Ground, stop: Stop, from: Point) -> Result<(), Error> {
@@ -54,6 +75,18 @@ impl Planner<'_> {
 }
 
 impl Ground<'_> {
+    /// Where a pass is slow.
+    fn pace(&self, job: &Job, pass: usize, course: &Course) -> Pace {
+        if job.slow == 1.0 {
+            return Pace::default();
+        }
+        match self.fresh.get(pass) {
+            Some(None) => Pace::slow(),
+            Some(Some(stretches)) => Pace::new(course, stretches, job.radius(), self.slack),
+            None => Pace::default(),
+        }
+    }
+
     /// The last places of a course beside each of its crests, in order.
     fn stops(&self, pass: usize, course: &Course) -> Vec<Stop> {
         let last = |crest: &usize| {

@@ -35,6 +35,9 @@ pub(super) struct Widths {
     pub at: Option<Point>,
     /// Length of each pass that is cut at the full width of the tool.
     pub full: Vec<f64>,
+    /// What of each pass has no neighbor inside; `None` where that is all of it. Empty if the feed does
+    /// not depend on it.
+    pub fresh: Vec<Option<Vec<Element>>>,
 }
 
 /// What one part of the axis tells.
@@ -42,6 +45,7 @@ struct Told {
     apart: f64,
     at: Point,
     full: Option<(usize, f64)>,
+    fresh: [Option<(usize, Element)>; 2],
 }
 
 impl Widths {
@@ -63,14 +67,23 @@ impl Widths {
             beside.tell(t)
         };
         let told: Vec<Told> = parts.par_iter().map(of_part).collect();
-        for Told { apart, at, full } in told {
+        let is_paced = job.slow < 1.0;
+        if is_paced {
+            widths.fresh = vec![Some(Vec::new()); rank.len()];
+        }
+        for Told { apart, at, full, fresh } in told {
             widths.step(apart, at);
             if let Some((pass, length)) = full {
                 widths.full[pass] += length;
             }
+            for (pass, element) in fresh.into_iter().flatten() {
+                if let Some(Some(of_pass)) = widths.fresh.get_mut(pass) {
+                    of_pass.push(element);
+                }
+            }
         }
         if job.start == Start::Outside {
-            widths.from_outside(reach, rank);
+            widths.count_first(reach, rank);
         }
         widths
     }
@@ -82,11 +95,14 @@ impl Widths {
     }
 
     /// From the wall inward every pass has its outer neighbor but the first ones, which are cut in full.
-    fn from_outside(&mut self, reach: &Reach, rank: &[usize]) {
+    fn count_first(&mut self, reach: &Reach, rank: &[usize]) {
         for (pass, full) in self.full.iter_mut().enumerate() {
             let mut outer = reach.nest.outer[pass].iter();
             let is_first = !outer.any(|door| rank[door.pass] < rank[pass]);
             *full = if is_first { reach.nest.spline(reach.levels, pass).length() } else { 0.0 };
+            if let Some(fresh) = self.fresh.get_mut(pass) {
+                *fresh = if is_first { None } else { Some(Vec::new()) };
+            }
         }
     }
 }
@@ -105,7 +121,7 @@ struct Beside<'a> {
 impl Beside<'_> {
     fn tell(&self, t: [f64; 2]) -> Told {
         let (apart, at) = self.apart(t);
-        Told { apart, at, full: self.full_width(t) }
+        Told { apart, at, full: self.full_width(t), fresh: self.fresh(t) }
     }
 
     /// How far the passes on both sides lie apart at most, or from a crest between them.
@@ -123,6 +139,18 @@ impl Beside<'_> {
             }
         }
         most
+    }
+
+    /// What has no neighbor inside, if the feed depends on it.
+    fn fresh(&self, t: [f64; 2]) -> [Option<(usize, Element)>; 2] {
+        if self.job.slow == 1.0 {
+            return [None; 2];
+        }
+        let d = self.reach.levels[self.level].distance;
+        [0, 1].map(|side| {
+            let e = self.roads.offset(self.edge, side, t, d);
+            self.pass_at(e.midpoint()).map(|pass| (pass, e))
+        })
     }
 
     /// The pass on the side that is cut first, and how long it is cut at full width there.

@@ -1,6 +1,8 @@
 //! The command line as typed; `settings` makes sense of it.
 
-use crate::length::{Length, Step, above_0, at_least_0, number_above_0, number_at_least_0, slope, step};
+use crate::length::{
+    Length, Step, above_0, at_least_0, number_above_0, number_at_least_0, share, slope, step, whole,
+};
 use crate::reading::Reading;
 use clap::{Parser, ValueEnum};
 use std::path::PathBuf;
@@ -56,8 +58,7 @@ pub struct Args {
     /// Largest distance between passes; % of the tool diameter [default: 40%]
     ///
     /// Above 0 and at most 100% of the tool. One of --tool, --step is required.
-    #[arg(long, value_name = "LENGTH|%", value_parser = step, help_heading = "Tool and passes",
-          required_unless_present = "tool")]
+    #[arg(long, value_name = "LENGTH|%", value_parser = step, help_heading = "Tool and passes")]
     pub step: Option<Step>,
 
     /// Floor below the top [default: 1 mm, 0.04 in]
@@ -89,11 +90,12 @@ pub struct Args {
     /// Radius of the arcs onto finishing passes and off them [default: half the tool]
     ///
     /// Less where there is less room, and at least as wide as --finish; 0 for none.
-    #[arg(long, value_name = "LENGTH", value_parser = at_least_0, help_heading = "Tool and passes")]
+    #[arg(long, value_name = "LENGTH", value_parser = at_least_0, requires = "finish",
+          help_heading = "Tool and passes")]
     pub lead: Option<Length>,
 
     /// Run the wall passes at the floor this often once more
-    #[arg(long, value_name = "N", default_value_t = 0, help_heading = "Tool and passes")]
+    #[arg(long, value_name = "N", value_parser = whole, default_value = "0", help_heading = "Tool and passes")]
     pub spring: u32,
 
     /// Side of the uncut stock: on the right (climb) or left of the motion
@@ -124,9 +126,18 @@ pub struct Args {
     #[arg(long, value_name = "LENGTH/MIN", value_parser = above_0, help_heading = "Machine")]
     pub feed: Option<Length>,
 
+    /// Share of the feed where more is cut than the step: first passes, necks, corners [default: 100%]
+    #[arg(long, value_name = "SHARE|%", value_parser = share, default_value = "1", hide_default_value = true,
+          help_heading = "Machine")]
+    pub slow: f64,
+
     /// Feed rate downward [default: 200 mm/min, 8 in/min]
     #[arg(long, value_name = "LENGTH/MIN", value_parser = above_0, help_heading = "Machine")]
     pub plunge_feed: Option<Length>,
+
+    /// Largest acceleration, for the estimate of time [default: 500 mm/s2, 20 in/s2]
+    #[arg(long, value_name = "LENGTH/S2", value_parser = above_0, help_heading = "Machine")]
+    pub acceleration: Option<Length>,
 
     /// Spindle speed
     #[arg(long, value_name = "RPM", value_parser = number_above_0, default_value = "12000",
@@ -139,7 +150,7 @@ pub struct Args {
     pub dwell: f64,
 
     /// Tool number of the program
-    #[arg(long, value_name = "N", default_value_t = 1, help_heading = "Machine")]
+    #[arg(long, value_name = "N", value_parser = whole, default_value = "1", help_heading = "Machine")]
     pub tool_number: u32,
 
     /// Coolant while the spindle turns
@@ -170,7 +181,7 @@ pub struct Args {
     pub arcs: ArcsArg,
 
     /// Decimals of coordinates [default: 4 in mm, 5 in inches]
-    #[arg(long, value_name = "N", help_heading = "Program")]
+    #[arg(long, value_name = "N", value_parser = whole, help_heading = "Program")]
     pub decimals: Option<u32>,
 
     /// Number the lines
@@ -303,7 +314,8 @@ mod tests {
 
     #[test]
     fn tool_or_step_is_required() {
-        assert!(Args::try_parse_from(["pocket", "a.dxf"]).is_err());
+        let neither = Args::try_parse_from(["pocket", "a.dxf"]).unwrap();
+        assert!(neither.check().unwrap_err().help.unwrap().contains("--tool"));
         assert!(Args::try_parse_from(["pocket", "a.dxf", "--tool", "6"]).is_ok());
         assert!(Args::try_parse_from(["pocket", "a.dxf", "--step", "0.5"]).is_ok());
     }

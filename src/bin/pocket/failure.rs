@@ -43,7 +43,19 @@ impl From<Error> for Failure {
             Error::Defects(defects) => defects.first().map(medial::Defect::at),
             _ => None,
         };
-        Failure { exit, message: error.to_string(), at, help: help(&error) }
+        let option = if matches!(error, Error::Parameter { .. }) { "--" } else { "" };
+        Failure { exit, message: format!("{option}{error}"), at, help: help(&error) }
+    }
+}
+
+/// What to change about an option that does not fit the others.
+fn help_on(name: &str) -> String {
+    match name {
+        "step" => "ask for --step 100% or less of the tool, or take a larger tool: --tool".into(),
+        "finish" => "leave less for the finishing pass, or take a larger step: --step".into(),
+        "floor-stock" => "leave less on the floor, or go deeper: --depth".into(),
+        "retract" => "begin to feed lower, or raise the rapids: --clearance".into(),
+        _ => format!("see --{name} in pocket --help"),
     }
 }
 
@@ -57,7 +69,7 @@ fn help(error: &Error) -> Option<String> {
             "take a smaller tool: --tool, --stock; pocket inspect tells the largest that fits"
         }
         Error::Defects(defects) => return defects.first().map(medial::Defect::help),
-        Error::Parameter { name, .. } => return Some(format!("see --{name} in pocket --help")),
+        Error::Parameter { name, .. } => return Some(help_on(name)),
         Error::Effort { .. } => {
             "take a larger step, step-down or ramp angle, or a smaller part of the drawing: --layer"
         }

@@ -89,6 +89,20 @@ pub fn number_at_least_0(text: &str) -> Result<f64, String> {
     if value >= 0.0 { Ok(value) } else { Err("must be 0 or more".into()) }
 }
 
+/// A share of something: 0.6 or 60%.
+pub fn share(text: &str) -> Result<f64, String> {
+    let value = match text.trim().strip_suffix('%') {
+        Some(percent) => finite(percent.trim_end())? / 100.0,
+        None => finite(text.trim())?,
+    };
+    if value > 0.0 && value <= 1.0 { Ok(value) } else { Err("must be above 0 and at most 1 (100%)".into()) }
+}
+
+/// A number of things.
+pub fn whole(text: &str) -> Result<u32, String> {
+    text.trim().parse().map_err(|_| "must be a whole number, 0 or more".to_owned())
+}
+
 /// An angle between level and upright.
 pub fn slope(text: &str) -> Result<f64, String> {
     let value = finite(text.trim())?;
@@ -126,6 +140,8 @@ mod tests {
         for bad in ["0%", "-1%", "100.1%", "NaN%", "%"] {
             assert!(step(bad).is_err(), "{bad}");
         }
+        assert!(share("60%") == Ok(0.6) && share("0.6") == Ok(0.6) && share("6").is_err());
+        assert!(whole("1.5").is_err() && whole("-1").is_err() && whole("3") == Ok(3));
         assert!(step("100%").is_ok() && slope("90").is_err() && number_above_0("nan").is_err());
     }
 }

@@ -62,6 +62,8 @@ impl Args {
             slot: self.slot,
             ramp_angle: self.ramp_angle,
             feed: or(self.feed, defaults.feed),
+            slow: self.slow,
+            acceleration: or(self.acceleration, defaults.acceleration),
             plunge_feed: or(self.plunge_feed, defaults.plunge_feed),
             clearance: or(self.clearance, defaults.clearance),
             retract: or(self.retract, defaults.retract.min(or(self.clearance, defaults.clearance))),

@@ -1,0 +1,130 @@
+//! How long moves take on a machine that must speed up and slow down.
+//!
+//! **Needs** moves and the largest acceleration. **Guarantees** the time of a machine that runs through
+//! where one feed move goes on in the direction of the one before, stops at corners, reaches every
+//! rate as fast as may be, and takes arcs no faster than their curvature allows.
+//! **Does not** know the jerk, the look-ahead or the corner speed of a controller.
+//!
+//! **Method.** Feed moves that run on into each other are one run: the time at their rates, and what
+//! starting and stopping adds, half of rate over acceleration each; a run too short for its rate takes
+//! twice the root of length over acceleration.
+
+use super::cutter::rapid_minutes;
+use super::{Job, Move, Point3};
+
+/// Largest turn, in radians, that a machine runs through.
+const CORNER: f64 = 0.01;
+
+/// Seconds in a minute.
+const SECONDS: f64 = 60.0;
+
+/// A feed move in space: unit directions at its ends, length, and the rate that it is taken at.
+struct Leg {
+    ends: [[f64; 3]; 2],
+    length: f64,
+    rate: f64,
+}
+
+/// Minutes of moves that begin where the tool is, if anywhere yet.
+pub(super) fn minutes(from: Option<Point3>, moves: &[Move], job: &Job) -> f64 {
+    let acceleration = job.acceleration * SECONDS * SECONDS;
+    let (mut at, mut total, mut run) = (from, 0.0, Vec::new());
+    for m in moves {
+        let to = m.to();
+        let from = at.replace(to).unwrap_or(to);
+        let leg = leg(from, m, acceleration);
+        let goes_on = |last: &Leg, next: &Leg| angle(last.ends[1], next.ends[0]) <= CORNER;
+        if leg.as_ref().is_none_or(|next| run.last().is_some_and(|last| !goes_on(last, next))) {
+            total += of_run(&run, acceleration);
+            run.clear();
+        }
+        match leg {
+            Some(leg) => run.push(leg),
+            None => total += rapid_minutes(from.distance(to), job),
+        }
+    }
+    total + of_run(&run, acceleration)
+}
+
+fn of_run(run: &[Leg], acceleration: f64) -> f64 {
+    let (Some(first), Some(last)) = (run.first(), run.last()) else { return 0.0 };
+    let length: f64 = run.iter().map(|leg| leg.length).sum();
+    let at_rates: f64 = run.iter().map(|leg| leg.length / leg.rate).sum();
+    let [v, w] = [first.rate, last.rate];
+    if length >= 0.5 * (v * v + w * w) / acceleration {
+        at_rates + 0.5 * (v + w) / acceleration
+    } else {
+        at_rates.max(2.0 * (length / acceleration).sqrt())
+    }
+}
+
+/// `None` for a rapid.
+fn leg(from: Point3, m: &Move, acceleration: f64) -> Option<Leg> {
+    match *m {
+        Move::Rapid { .. } => None,
+        Move::Feed { to, rate } => {
+            let length = from.distance(to);
+            let ahead = [to.x - from.x, to.y - from.y, to.z - from.z].map(|c| c / length);
+            Some(Leg { ends: [ahead; 2], length, rate })
+        }
+        Move::Arc { to, center, ccw, rate } => {
+            let [a, b] = [from.xy() - center, to.xy() - center];
+            let flat = a.angle_to(b).abs() * b.length();
+            let length = flat.hypot(to.z - from.z);
+            let ends = [a, b].map(|spoke| {
+                let ahead = if ccw { spoke.left() } else { spoke.right() }.unit() * (flat / length);
+                [ahead.x, ahead.y, (to.z - from.z) / length]
+            });
+            // On a helix of this slope the centripetal part is that of the plane.
+            let fastest = (acceleration * b.length()).sqrt() * (length / flat);
+            Some(Leg { ends, length, rate: rate.min(fastest) })
+        }
+    }
+}
+
+/// Angle between unit vectors; 0 where one is none.
+fn angle(a: [f64; 3], b: [f64; 3]) -> f64 {
+    let apart: f64 = (0..3).map(|i| (a[i] - b[i]) * (a[i] - b[i])).sum();
+    if apart.is_nan() { 0.0 } else { 2.0 * (0.5 * apart.sqrt()).min(1.0).asin() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::point;
+    use crate::tolerance::Units;
+
+    fn job(acceleration: f64) -> Job {
+        Job { acceleration, ..Job::new(Units::Mm, 6.0, 2.4) }
+    }
+
+    fn feed(x: f64, y: f64) -> Move {
+        Move::Feed { to: [x, y, 0.0].into(), rate: 600.0 }
+    }
+
+    fn seconds(moves: &[Move], acceleration: f64) -> f64 {
+        60.0 * minutes(Some([0.0, 0.0, 0.0].into()), moves, &job(acceleration))
+    }
+
+    #[test]
+    fn a_straight_line_takes_its_time_and_what_start_and_stop_add() {
+        // 100 mm at 10 mm/s, and 10 mm/s over 20 mm/s2.
+        assert!((seconds(&[feed(100.0, 0.0)], 20.0) - 10.5).abs() < 1e-9);
+        assert!((seconds(&[feed(40.0, 0.0), feed(100.0, 0.0)], 20.0) - 10.5).abs() < 1e-9);
+        assert!((seconds(&[feed(60.0, 0.0), feed(60.0, 40.0)], 20.0) - 11.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_short_move_never_reaches_its_rate() {
+        assert!((seconds(&[feed(0.2, 0.0)], 20.0) - 0.2).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_small_arc_is_slow_and_met_without_a_stop_where_it_touches() {
+        let arc = Move::Arc { to: [10.0, 1.0, 0.0].into(), center: point(10.0, 0.5), ccw: true, rate: 600.0 };
+        let moves = [feed(10.0, 0.0), arc, feed(0.0, 1.0)];
+        let fastest = (20.0f64 * 0.5).sqrt();
+        let expected = 2.0 + 0.5 + 0.5 * std::f64::consts::PI / fastest;
+        assert!((seconds(&moves, 20.0) - expected).abs() < 1e-9);
+    }
+}
