@@ -122,3 +122,20 @@ fn a_lent_direction_is_not_handed_on() {
     ];
     assert_right(&[("ellipse", &[&tip])]);
 }
+
+/// Two vertices across a neck of 1e-8 of the size, seen from afar: where a level passes between them is
+/// known to half of the digits only, if it is looked for along the two circles around them.
+#[test]
+fn levels_behind_a_hair_thin_neck_are_right() {
+    assert_right(&[(
+        "two round chambers",
+        &[&[
+            (-866.0254537844287, -499.9999133974634, 0.9999999974999999),
+            (-35507.0438104107, -20500.00092270023, 0.9999999974999999),
+            (-866.0253537844222, -500.0000866025586, 0.0),
+            (866.0254537844105, 499.9999133974917, 0.9999999974999999),
+            (35507.04010421988, 20499.98793966362, 0.9999999974999999),
+            (866.025353784469, 500.0000866025684, 0.0),
+        ]],
+    )]);
+}

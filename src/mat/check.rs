@@ -68,7 +68,7 @@ impl Mat {
     fn check_middle(&self, edge: &GraphEdge, found: &mut Findings) {
         let pieces = edge.pieces.map(|p| &self.graph.pieces[p as usize].piece);
         let ends = edge.disks.map(|d| &self.graph.disks[d as usize]);
-        let disk = inner_disk(&self.sites, pieces).unwrap_or(UnitDisk {
+        let disk = inner_disk(&self.sites, pieces, self.graph.error).unwrap_or(UnitDisk {
             center: ends[0].center.midpoint(ends[1].center),
             radius: 0.5 * (ends[0].radius + ends[1].radius),
         });

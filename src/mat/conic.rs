@@ -35,7 +35,7 @@ pub(super) fn bezier(sites: &[Site], graph: &Graph, edge: &GraphEdge) -> ([Point
     if !(between > 0.0 && between < 1.0 && height > graph.error) {
         return straight;
     }
-    let Some(UnitDisk { center: s, .. }) = inner_disk(sites, [&a, &b]) else { return straight };
+    let Some(UnitDisk { center: s, .. }) = inner_disk(sites, [&a, &b], graph.error) else { return straight };
     // Barycentric coordinates of S in the control triangle, each a ratio of areas.
     let (p0, p2) = (u - middle, v - middle);
     let area = p0.cross(p2);

@@ -162,20 +162,24 @@ impl<'a> Face<'a> {
         let (third, last) = (branch.third, sub.len() - 1);
         let pieces = [0, 1, third].map(|i| &graph.pieces[sub.get(self.slots, i).piece as usize].piece);
         let sites = pieces.map(|p| &self.sites[p.site as usize]);
+        // A piece without length is what a disk left that osculates its arc, and all that reaches into that
+        // disk by less than a drawn coordinate is uncertain was passed over.
+        let is_point = |i: usize| pieces[i].from.point == pieces[i].to.point && !sites[i].is_vertex;
+        let error = if (0..3).any(is_point) { graph.error } else { TIE_ERROR };
         [0, 1, third - 1, third, last].into_iter().find_map(|i| {
             let disk = graph.disks[sub.get(self.slots, i).disk as usize];
             let feet = || [0, 1, 2].map(|i| foot_of(sites[i], disk.center, &pieces[i].from, &pieces[i].to));
-            let touches = disk.radius > 0.0 && self.touches(sub, disk, [0, 1, third], graph);
+            let touches = disk.radius > 0.0 && self.touches(sub, disk, [0, 1, third], graph, error);
             touches.then(|| Branch { disk, feet: feet(), third })
         })
     }
 
-    /// Whether a disk touches three pieces, to round-off.
-    fn touches(&self, sub: &SubFace, disk: UnitDisk, pieces: [usize; 3], graph: &Graph) -> bool {
+    /// Whether a disk touches three pieces, to within `error`.
+    fn touches(&self, sub: &SubFace, disk: UnitDisk, pieces: [usize; 3], graph: &Graph, error: f64) -> bool {
         pieces.into_iter().all(|i| {
             let Piece { site, from, to, .. } = graph.pieces[sub.get(self.slots, i).piece as usize].piece;
             let part = Site { start: from, end: to, ..self.sites[site as usize] };
-            (part.distance(disk.center) - disk.radius).abs() <= TIE_ERROR
+            (part.distance(disk.center) - disk.radius).abs() <= error
         })
     }
 
@@ -216,8 +220,8 @@ impl<'a> Face<'a> {
             _ => self.polished_branch(branch, tied, graph, sub),
         };
         let intrusion = |b: &Branch| self.intrusion(sub, b.disk, error, graph);
-        let touches = self.touches(sub, other.disk, tied, graph)
-            && (other.third == tied[2] || self.touches(sub, other.disk, three, graph));
+        let touches = self.touches(sub, other.disk, tied, graph, TIE_ERROR)
+            && (other.third == tied[2] || self.touches(sub, other.disk, three, graph, TIE_ERROR));
         (touches && intrusion(&other) <= intrusion(branch)).then_some(other)
     }
 

@@ -74,10 +74,13 @@ fn shoot(sites: &[Site], bvh: &Bvh, joint: u32, hints: &Hints) -> Shot {
     let site = &sites[joint as usize];
     let probe = probe_at(site);
     let mut best = curvature_limit(sites, joint);
+    let osculating = (best.contact == Contact::Whole)
+        .then(|| SearchDisk { center: probe.center(best.radius), radius: best.radius });
+    let counts = |i: u32| osculating.is_none_or(|disk| reaches_into(&sites[i as usize], &disk));
     let try_site = |best: &mut Shot, i: u32| -> bool {
         let (radius, contact) = touch(Span::whole(&sites[i as usize]), &probe);
         let shot = Shot { radius, site: i, contact };
-        if !is_better(sites, &probe, &shot, best) {
+        if !(is_better(sites, &shot, best) && counts(i)) {
             return false;
         }
         let shrunk = radius < best.radius;
@@ -109,12 +112,9 @@ const RADIUS_ERROR: f64 = 16.0 * f64::EPSILON;
 /// Whether a shot holds the disk back more than another. Next to the end of a site, the radius to the
 /// contact and to the end differ by the square of their distance, which round-off hides long before
 /// that distance: there the tangent contact is the one, or contacts would be off by its root.
-fn is_better(sites: &[Site], probe: &Probe, shot: &Shot, best: &Shot) -> bool {
-    if best.site == NONE {
+fn is_better(sites: &[Site], shot: &Shot, best: &Shot) -> bool {
+    if best.site == NONE || best.contact == Contact::Whole {
         return shot.radius < best.radius;
-    }
-    if best.contact == Contact::Whole {
-        return shot.radius < best.radius && reaches_into(&sites[shot.site as usize], probe, best.radius);
     }
     let (here, there) = (&sites[shot.site as usize], &sites[best.site as usize]);
     let are_neighbors = here.vertices.iter().any(|v| there.vertices.contains(v));
@@ -126,10 +126,10 @@ fn is_better(sites: &[Site], probe: &Probe, shot: &Shot, best: &Shot) -> bool {
     shot.radius < best.radius + if own > other { error } else { -error }
 }
 
-/// Whether a site reaches into the disk at a probe by more than round-off. Into a disk that osculates an arc
-/// other arcs of the same circle do not: their touching disks are whatever round-off makes of them.
-fn reaches_into(site: &Site, probe: &Probe, radius: f64) -> bool {
-    site.distance(probe.center(radius)) < radius - site.error
+/// Whether a site reaches into a disk by more than round-off. Into one that osculates an arc other arcs of
+/// the same circle do not, and they hold back none: their touching disks are whatever round-off makes of them.
+fn reaches_into(site: &Site, disk: &SearchDisk) -> bool {
+    site.distance(disk.center) < disk.radius - site.error
 }
 
 /// Which of two contacts in nearly one place tells where it really is.

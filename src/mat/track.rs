@@ -79,10 +79,13 @@ impl<'a> Track<'a> {
 }
 
 /// A disk well inside of the edge between two pieces: over the middle of the longer one, or of the other if
-/// that disk does not touch the shorter one between its ends. None where neither does: then round-off hides
-/// where the edge runs between its ends.
-pub(super) fn inner_disk(sites: &[Site], [a, b]: [&Piece; 2]) -> Option<UnitDisk> {
+/// that disk does not touch the shorter one between its ends. None where neither does, or one of them has no
+/// length though it is no vertex: then round-off hides where the edge runs between its ends.
+pub(super) fn inner_disk(sites: &[Site], [a, b]: [&Piece; 2], error: f64) -> Option<UnitDisk> {
     let extent = |p: &Piece| p.from.point.distance(p.to.point);
+    if [a, b].into_iter().any(|p| extent(p) <= error && !sites[p.site as usize].is_vertex) {
+        return None;
+    }
     let (longer, shorter) = if extent(b) > extent(a) { (b, a) } else { (a, b) };
     [(longer, shorter), (shorter, longer)].into_iter().find_map(|(along, across)| {
         let track = Track::of(sites, along);

@@ -21,7 +21,7 @@ impl Tracer<'_> {
     pub fn crossing(&self, edge: u32) -> Point {
         let e = self.edge(edge);
         let [a, b] = e.pieces.map(|p| self.piece(p).piece);
-        if let Some(c) = self.by_newton(e, [&a, &b]) {
+        if let Some(c) = self.between_vertices(e, [&a, &b]).or_else(|| self.by_newton(e, [&a, &b])) {
             return c;
         }
         let extent = |p: &Piece| p.from.point.distance(p.to.point);
@@ -38,6 +38,22 @@ impl Tracer<'_> {
         // The place at this distance from the one side is exact; the other's is made so as well.
         let start = track.at(t).center(self.d);
         self.polished(e, [self.site(&a), self.site(&b)], start)
+    }
+
+    /// The crossing between two vertices, on the line halfway between them. They may be the sides of a
+    /// hair-thin neck, seen from afar in nearly one direction, which tells nothing of the place across it.
+    fn between_vertices(&self, edge: &GraphEdge, pieces: [&Piece; 2]) -> Option<Point> {
+        let sites = pieces.map(|p| self.site(p));
+        if !sites.iter().all(|s| s.is_vertex) {
+            return None;
+        }
+        let [v, w] = sites.map(|s| s.start.point);
+        let half = 0.5 * v.distance(w);
+        let away = (w - v).left() * (((self.d - half) * (self.d + half)).max(0.0).sqrt() / (2.0 * half));
+        let [a, b] = edge.disks.map(|d| &self.mat.graph.disks[d as usize]);
+        let toward = (if a.radius > b.radius { a } else { b }).center - v.midpoint(w);
+        let c = v.midpoint(w) + if toward.dot(away) < 0.0 { -away } else { away };
+        c.is_finite().then_some(c)
     }
 
     /// The crossing by Newton's method, if it is certain to be that.
