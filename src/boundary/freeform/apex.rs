@@ -167,3 +167,32 @@ fn over([a, b]: &[Node; 2], apex: &Node, lift: f64) -> Arc {
     let through = v.cross(w) / (v.length() * w.length() + v.dot(w));
     Arc { start: a.place, end: b.place, bulge: through + 2.0 * lift / chord }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::boundary::freeform::EllipseArc;
+    use crate::geom::{point, vector};
+
+    #[test]
+    fn an_arc_over_an_apex_errs_by_the_tolerance_and_its_bound_is_near() {
+        let ellipse = EllipseArc::new(point(0.0, 0.0), vector(20.0, 0.0), 0.5, 0.0, 0.0).unwrap();
+        let pieces = ellipse.pieces().unwrap();
+        let track = Track::new(&pieces);
+        for u in [1.0, 2.0] {
+            for tolerance in [1e-4, 1e-6, 1e-8] {
+                let room = Room { limits: [u - 0.9, u + 0.9], most: [5.0; 2] };
+                let found = apex_arc(&track, u, &room, tolerance, None).unwrap();
+                let (from, to) = (found.nodes[0].u, found.nodes[1].u);
+                let place = |i: i32| track.place(from + (to - from) * f64::from(i) / 1000.0);
+                let far = (0..=1000).map(|i| found.cell.arcs[0].distance(place(i))).fold(0.0, f64::max);
+                let bound = found.cell.distance.bound;
+                assert!(far <= bound && bound <= tolerance, "{tolerance:e}: {far:e}, {bound:e}");
+                assert!(bound <= 1.2 * far && far >= 0.9 * tolerance, "{tolerance:e}: {far:e}, {bound:e}");
+                // Within less it is shorter, and the one before tells where to begin.
+                let less = apex_arc(&track, u, &room, 0.5 * tolerance, Some((&found, 0.5))).unwrap();
+                assert!((less.reach[0] / found.reach[0] - 0.5f64.powf(0.25)).abs() < 0.02);
+            }
+        }
+    }
+}
