@@ -147,10 +147,12 @@ pub enum Defect {
         at: Point,
     },
     /// A contour that crosses itself; the whole nest around it was left out.
-    #[error("a contour crosses itself at {at}")]
+    #[error("a contour crosses itself at {at}{}", reach.map_or(String::new(), |reach| format!(", in a loop of {}", digits(reach))))]
     SelfCrossing {
         /// The double point.
         at: Point,
+        /// How far the loop reaches from there, if it is small against the contour.
+        reach: Option<f64>,
     },
     /// More crossings than are listed one by one.
     #[error("contours cross at {}, one of them {at}", counted(*count, "more place", "more places"))]
@@ -210,7 +212,7 @@ impl Defect {
             | Defect::Divided { at, .. }
             | Defect::Healed { at, .. }
             | Defect::Crossing { at }
-            | Defect::SelfCrossing { at }
+            | Defect::SelfCrossing { at, .. }
             | Defect::MoreCrossings { at, .. }
             | Defect::NotOnePocket { at, .. }
             | Defect::Coordinate { at }
@@ -231,6 +233,9 @@ impl Defect {
             }
             Defect::Healed { .. } => "nothing to do, unless it is meant so: then choose a smaller --join".into(),
             Defect::NotOnePocket { .. } => "make one pocket of each outer loop with its islands".into(),
+            Defect::SelfCrossing { reach: Some(reach), .. } => {
+                format!("cut the loop off in the drawing, or try --join {}", digits(reach * 1.01))
+            }
             Defect::Crossing { .. } | Defect::SelfCrossing { .. } | Defect::MoreCrossings { .. } => {
                 "trim the curves in the drawing so that contours touch at most, or select with --layer".into()
             }

@@ -3,6 +3,7 @@
 use medial::boundary::freeform::{CurveError, EllipseArc, Fit, Nurbs, Scheme};
 use medial::{ArcSpline, Element, Point, Vector, point, vector};
 use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 use std::f64::consts::TAU;
 
 /// Places of a spline by de Boor's algorithm, independent of Bezier pieces.
@@ -91,6 +92,10 @@ fn wave(degree: usize) -> Nurbs {
 /// Equal boundaries may differ by this part of the tolerance: the largest error of an arc, which says
 /// how long it may be, is known to that precision.
 const SAME: f64 = 1e-5;
+
+/// Those of wild curves, where apices crowd and arcs over them make room for each other step by step, may
+/// differ by this part.
+const ROUGHLY_SAME: f64 = 0.25;
 
 /// Largest distance between two paths, both ways.
 fn apart(a: &ArcSpline, b: &ArcSpline) -> f64 {
@@ -411,6 +416,83 @@ proptest! {
         let Ok(spline) = Nurbs::through(&places, [None, None], closed) else { return Ok(()) };
         let fit = spline.to_arcs(1e-3).unwrap();
         prop_assert!(fit.bound <= 1e-3 && farthest(&places, &fit.path) <= 1e-3);
+    }
+}
+
+#[test]
+fn bounds_of_ellipses_are_near() {
+    for ratio in [0.9, 0.5, 0.05] {
+        for (start, end) in [(0.0, 0.0), (0.4, 4.0)] {
+            let e = EllipseArc::new(point(1.0, 2.0), vector(20.0, 10.0), ratio, start, end).unwrap();
+            for tolerance in [1e-1, 1e-3, 1e-5] {
+                let fit = e.to_arcs(tolerance).unwrap();
+                let (from, to) = e.range();
+                let places: Vec<Point> =
+                    (0..=8000).map(|i| e.at(from + (to - from) * f64::from(i) / 8000.0)).collect();
+                let far = farthest(&places, &fit.path);
+                assert!(far <= fit.bound && fit.bound <= tolerance, "{ratio} {tolerance:e}: {far:e}");
+                assert!(fit.bound <= 1.2 * far + 1e-12, "{ratio} {tolerance:e}: {far:e}, {:e}", fit.bound);
+                assert!(farthest_back(&fit.path, &places) <= fit.bound + 1e-4);
+            }
+        }
+    }
+}
+
+prop_compose! {
+    /// A closed cubic whose control points are at random distances around a center.
+    fn any_ring()(radii in prop::collection::vec(8.0..30.0f64, 5..12), weight in 0.3..3.0f64) -> Nurbs {
+        let count = radii.len();
+        let place = |i: usize| point(5.0, -2.0) + Vector::from_angle(TAU * i as f64 / count as f64) * radii[i];
+        let weights = (0..count).map(|i| if i == 2 { weight } else { 1.0 }).collect();
+        Nurbs::new(3, uniform(count + 1), (0..count).map(place).collect(), weights, true).unwrap()
+    }
+}
+
+proptest! {
+    // The same cases every time: where two numbers of arcs are equally good to round-off, either may come
+    // out.
+    #![proptest_config(ProptestConfig { cases: 96, rng_seed: RngSeed::Fixed(5), ..ProptestConfig::default() })]
+
+    #[test]
+    fn any_ring_has_the_same_boundary_in_other_words(
+        ring in any_ring(), tolerance in prop_oneof![Just(1e-1), Just(1e-3), Just(1e-5)],
+        turn in 0.0..TAU, scale in prop_oneof![Just(1.0), 1e-3..1e3f64], mirror in any::<bool>(), at in 0.1..0.9f64
+    ) {
+        let fit = ring.to_arcs(tolerance).unwrap();
+        let range = (ring.knots()[3], ring.knots()[ring.knots().len() - 4]);
+        let knot = with_knot(&ring, range.0 + (range.1 - range.0) * at);
+        for (other, how) in [(ring.reversed(), "backwards"), (knot, "with a knot")] {
+            let other = other.to_arcs(tolerance).unwrap();
+            prop_assert_eq!(fit.path.len(), other.path.len());
+            let far = apart(&fit.path, &other.path);
+            prop_assert!(far < ROUGHLY_SAME * tolerance, "{how}: {far:e} at {tolerance:e}");
+        }
+        let map = |p: Point| {
+            let v = vector(if mirror { -p.x } else { p.x }, p.y).rotated(turn.cos(), turn.sin()) * scale;
+            point(v.x + 3.0 * scale, v.y)
+        };
+        let mapped = ring.transformed(map).to_arcs(tolerance * scale).unwrap();
+        prop_assert_eq!(fit.path.len(), mapped.path.len());
+        let far = apart(&fit.path.mapped(mirror, map), &mapped.path);
+        prop_assert!(far < ROUGHLY_SAME * tolerance * scale, "{far:e} at {tolerance:e}");
+        prop_assert_eq!(extrema(&fit.path), fit.cuts.apices);
+        let far = farthest(&sampled(&ring, 400), &fit.path);
+        prop_assert!(far <= fit.bound && fit.bound <= 1.2 * far + 1e-11, "{far:e}, {:e}", fit.bound);
+    }
+
+    #[test]
+    fn arcs_for_chords_are_within_their_tolerance(
+        ring in any_ring(), count in 4usize..60, tolerance in prop_oneof![Just(1e-1), Just(1e-2), Just(1e-3)]
+    ) {
+        let mut places = sampled(&ring, count);
+        places.dedup();
+        places.pop();
+        let drawn = ArcSpline::closed(places.iter().map(|p| (p.x, p.y, 0.0)));
+        if let Some(arcs) = drawn.with_arcs_for_chords(tolerance) {
+            prop_assert!(arcs.len() < drawn.len());
+            let far = apart(&drawn, &arcs);
+            prop_assert!(far <= tolerance, "{far:e}");
+        }
     }
 }
 

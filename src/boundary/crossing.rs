@@ -16,6 +16,9 @@ use crate::error::Defect;
 use crate::geom::{ArcSpline, Point};
 use std::collections::{BTreeMap, BTreeSet};
 
+/// A loop that reaches less far than this part of the rest of its contour is small.
+const SMALL: f64 = 1.0 / 16.0;
+
 /// Crossings that are listed; of the others only their number is told.
 const LISTED: usize = 100;
 
@@ -48,10 +51,15 @@ impl Crossings {
             } else {
                 junction.crossings()
             };
+            let mut reach: Option<f64> = None;
             for &(s, t) in &pairs {
-                if junction.strands[s].path == junction.strands[t].path {
+                let path = junction.strands[s].path;
+                if path == junction.strands[t].path {
                     let vertices = [s, t].map(|s| junction.strands[s].vertex);
-                    found.own.entry(junction.strands[s].path).or_default().extend(vertices);
+                    found.own.entry(path).or_default().extend(vertices);
+                    if found.defects.len() < LISTED {
+                        reach = small_loop(paths[path], vertices).or(reach);
+                    }
                 }
             }
             pairs.iter_mut().for_each(|(s, t)| {
@@ -60,7 +68,7 @@ impl Crossings {
             });
             pairs.sort_unstable();
             pairs.dedup();
-            pairs.into_iter().for_each(|(a, b)| found.note(&paths, a, b, junction.place));
+            pairs.into_iter().for_each(|(a, b)| found.note(&paths, [a, b], junction.place, reach));
         }
         found.spread(&junctions);
         if let Some((count, at)) = found.more {
@@ -69,7 +77,7 @@ impl Crossings {
         found
     }
 
-    fn note(&mut self, paths: &[&ArcSpline], a: usize, b: usize, at: Point) {
+    fn note(&mut self, paths: &[&ArcSpline], [a, b]: [usize; 2], at: Point, reach: Option<f64>) {
         if !paths[a].closed || !paths[b].closed {
             // Only an open curve gives way, and only to a contour.
             self.crosses[a] |= !paths[a].closed && paths[b].closed;
@@ -82,7 +90,8 @@ impl Crossings {
             self.pairs.insert((a, b));
         }
         if self.defects.len() < LISTED {
-            self.defects.push(if a == b { Defect::SelfCrossing { at } } else { Defect::Crossing { at } });
+            let own = Defect::SelfCrossing { at, reach };
+            self.defects.push(if a == b { own } else { Defect::Crossing { at } });
         } else {
             self.more.get_or_insert((0, at)).0 += 1;
         }
@@ -112,6 +121,19 @@ impl Crossings {
             }
         }
     }
+}
+
+/// How far the smaller of the two loops of a closed path between two vertices in one place reaches from
+/// there, if it is small against the other.
+fn small_loop(path: &ArcSpline, [i, j]: [usize; 2]) -> Option<f64> {
+    let (n, at) = (path.vertices.len(), path.vertices[i].point);
+    let reach = |from: usize, to: usize| {
+        let count = (to + n - from) % n;
+        let elements = (from..from + count).map(|k| path.element(k % n));
+        elements.map(|e| e.midpoint().distance(at).max(e.end.distance(at))).fold(0.0, f64::max)
+    };
+    let (one, other) = (reach(i, j), reach(j, i));
+    (path.closed && one.min(other) <= SMALL * one.max(other)).then_some(one.min(other))
 }
 
 impl Junction {
@@ -274,7 +296,24 @@ mod tests {
     #[test]
     fn a_bow_tie_crosses_itself() {
         let bow = ArcSpline::closed([(0.0, 0.0, 0.0), (2.0, 2.0, 0.0), (2.0, 0.0, 0.0), (0.0, 2.0, 0.0)]);
-        assert_eq!(crossings(&[bow]).defects, [Defect::SelfCrossing { at: point(1.0, 1.0) }]);
+        assert_eq!(crossings(&[bow]).defects, [Defect::SelfCrossing { at: point(1.0, 1.0), reach: None }]);
+    }
+
+    #[test]
+    fn a_small_loop_is_told_with_a_reach_that_cuts_it_off() {
+        let looped = ArcSpline::closed([
+            (0.0, 0.0, 0.0),
+            (9.0, 0.0, 0.0),
+            (9.0, 9.2, 0.0),
+            (9.3, 9.2, 0.0),
+            (9.3, 9.0, 0.0),
+            (0.0, 9.0, 0.0),
+        ]);
+        let found = crossings(&[looped]).defects;
+        let [Defect::SelfCrossing { at, reach: Some(reach) }] = found[..] else { panic!("{found:?}") };
+        assert_eq!(at, point(9.0, 9.0));
+        assert!((reach - 0.3f64.hypot(0.2)).abs() < 1e-12, "{reach}");
+        assert!(found[0].help().ends_with("--join 0.3642"), "{}", found[0].help());
     }
 
     #[test]

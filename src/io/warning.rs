@@ -416,7 +416,7 @@ mod tests {
         let others = [
             Defect::Duplicates { count: 1, at },
             Defect::Crossing { at },
-            Defect::SelfCrossing { at },
+            Defect::SelfCrossing { at, reach: Some(2.0) },
             Defect::MoreCrossings { count: 1, at },
             Defect::NotOnePocket { count: 2, at },
             Defect::Coordinate { at },

@@ -3,8 +3,8 @@
 //! **Guarantees** an arc within the tolerance of the curve around an apex, as far to both sides as it
 //! may reach, nearly. Being the extremum itself, it costs the curve no apex.
 //!
-//! **Method.** Its ends lie on the curve, as far from the apex; its bulge makes the errors on both
-//! sides of the arc equal. Such an arc spares more than another: with curvature `k - c s^2 / 2` it errs
+//! **Method.** Its ends lie on the curve; their distances from the apex and its bulge make the errors
+//! before, at and behind the apex equal. Such an arc spares more than another: with curvature `k - c s^2 / 2` it errs
 //! by `c L^4 / 140` for ends at `s = L` and `-L`, where the least number of any arcs within that error
 //! would be 1.35, and with `k - c |s|` by `c L^3 / 61`, for 1.37. In both cases that is the change of
 //! the curvature times `L^2 / 65`, about, which makes a first guess.
@@ -39,9 +39,15 @@ pub(super) struct ApexArc {
     pub cell: Cell,
     /// Its ends, with its tangents.
     pub nodes: [Node; 2],
-    /// Their distances from the apex.
+    shape: Shape,
+}
+
+/// What makes an arc over an apex.
+#[derive(Clone, Copy, Debug)]
+struct Shape {
+    /// The distances of its ends from the apex.
     reach: [f64; 2],
-    /// How far the apex is to the left of the arc, about.
+    /// How far the apex is to the left of it, about.
     lift: f64,
 }
 
@@ -54,8 +60,8 @@ pub(super) struct Room {
     pub most: [f64; 2],
 }
 
-/// The arc over the apex at parameter `u`, if there is room for one. Another one over it, within another
-/// tolerance, tells where to begin.
+/// The arc over the apex at parameter `u`, if there is room for one. Another one over it, within so many
+/// times the tolerance of this one, tells where to begin.
 pub(super) fn apex_arc(
     track: &Track,
     u: f64,
@@ -71,31 +77,51 @@ pub(super) fn apex_arc(
         near[side] = node.u;
         node
     };
-    let (mut reach, mut lift) = match other {
-        Some((other, tolerances)) => {
-            let factor = tolerances.powf(0.25);
-            ([0, 1].map(|i| (other.reach[i] * factor).min(most[i])), other.lift * tolerances)
+    let first = match other {
+        Some((other, times)) => {
+            let shorter = times.powf(-0.25);
+            let reach = [0, 1].map(|i| (other.shape.reach[i] * shorter).min(most[i]));
+            Shape { reach, lift: other.shape.lift / times }
         }
-        None => ([0, 1].map(|side| guess(|reach| end(side, reach), &apex, most[side], tolerance)), 0.0),
+        None => {
+            let reach = [0, 1].map(|side| guess(|reach| end(side, reach), &apex, most[side], tolerance));
+            Shape { reach, lift: 0.0 }
+        }
     };
+    let ends = |reach: [f64; 2]| [0, 1].map(|side| end(side, reach[side]));
+    let (arc, [a, b], shape) = corrected(track, &apex, (most, tolerance), first, ends)?;
+    let cell = Cell::of_one(track, arc, [a.u, b.u], tolerance);
+    let nodes = [Node { tangent: arc.start_tangent(), ..a }, Node { tangent: arc.end_tangent(), ..b }];
+    (cell.distance.bound <= tolerance).then_some(ApexArc { cell, nodes, shape })
+}
+
+/// The widest arc within the tolerance that comes out when its shape is corrected by its errors.
+fn corrected(
+    track: &Track,
+    apex: &Node,
+    (most, tolerance): ([f64; 2], f64),
+    mut shape: Shape,
+    mut ends: impl FnMut([f64; 2]) -> [Node; 2],
+) -> Option<(Arc, [Node; 2], Shape)> {
     let (mut good, mut widest) = (None, 0.0);
     for _ in 0..MAX_CORRECTIONS {
+        let Shape { reach, lift } = shape;
         if !reach.iter().all(|&r| r > track.noise() && r.is_finite()) {
             break;
         }
-        let nodes = [0, 1].map(|side| end(side, reach[side]));
-        let arc = over(&nodes, &apex, lift);
-        let errors = Errors::of(track, &arc, &nodes, &apex, tolerance);
+        let nodes = ends(reach);
+        let arc = over(&nodes, apex, lift);
+        let errors = Errors::of(track, &arc, &nodes, apex, tolerance);
         if errors.largest() <= 1.0 {
             if reach[0] + reach[1] > widest {
-                (good, widest) = (Some((arc, nodes, reach, lift)), reach[0] + reach[1]);
+                (good, widest) = (Some((arc, nodes, shape)), reach[0] + reach[1]);
             }
             if [0, 1].iter().all(|&i| errors.sides[i] >= 1.0 - WINDOW || reach[i] >= most[i]) {
                 break;
             }
         }
         if !errors.largest().is_finite() {
-            (reach, lift) = (reach.map(|r| 0.5 * r), 0.0);
+            shape = Shape { reach: reach.map(|r| 0.5 * r), lift: 0.0 };
             continue;
         }
         let factors = [0, 1].map(|i| {
@@ -103,13 +129,12 @@ pub(super) fn apex_arc(
             ((1.0 - 0.5 * WINDOW) / balanced).powf(0.25).clamp(0.5, 2.0).min(most[i] / reach[i])
         });
         let both = 0.5 * (factors[0] + factors[1]);
-        lift = (lift + errors.raised() * tolerance) * both * both * both * both;
-        reach = [0, 1].map(|i| reach[i] * factors[i]);
+        shape = Shape {
+            reach: [0, 1].map(|i| reach[i] * factors[i]),
+            lift: (lift + errors.raised() * tolerance) * both * both * both * both,
+        };
     }
-    let (arc, [a, b], reach, lift) = good?;
-    let cell = Cell::of_one(track, arc, [a.u, b.u], tolerance);
-    let nodes = [Node { tangent: arc.start_tangent(), ..a }, Node { tangent: arc.end_tangent(), ..b }];
-    (cell.distance.bound <= tolerance).then_some(ApexArc { cell, nodes, reach, lift })
+    good
 }
 
 /// How far an arc on one side may reach, by the change of the curvature.
@@ -166,4 +191,33 @@ fn over([a, b]: &[Node; 2], apex: &Node, lift: f64) -> Arc {
     let chord = (b.place - a.place).length();
     let through = v.cross(w) / (v.length() * w.length() + v.dot(w));
     Arc { start: a.place, end: b.place, bulge: through + 2.0 * lift / chord }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::boundary::freeform::EllipseArc;
+    use crate::geom::{point, vector};
+
+    #[test]
+    fn an_arc_over_an_apex_errs_by_the_tolerance_and_its_bound_is_near() {
+        let ellipse = EllipseArc::new(point(0.0, 0.0), vector(20.0, 0.0), 0.5, 0.0, 0.0).unwrap();
+        let pieces = ellipse.pieces().unwrap();
+        let track = Track::new(&pieces);
+        for u in [1.0, 2.0] {
+            for tolerance in [1e-4, 1e-6, 1e-8] {
+                let room = Room { limits: [u - 0.9, u + 0.9], most: [5.0; 2] };
+                let found = apex_arc(&track, u, &room, tolerance, None).unwrap();
+                let (from, to) = (found.nodes[0].u, found.nodes[1].u);
+                let place = |i: i32| track.place(from + (to - from) * f64::from(i) / 1000.0);
+                let far = (0..=1000).map(|i| found.cell.arcs[0].distance(place(i))).fold(0.0, f64::max);
+                let bound = found.cell.distance.bound;
+                assert!(far <= bound && bound <= tolerance, "{tolerance:e}: {far:e}, {bound:e}");
+                assert!(bound <= 1.2 * far && far >= 0.9 * tolerance, "{tolerance:e}: {far:e}, {bound:e}");
+                // Within less it is shorter, and the one before tells where to begin.
+                let less = apex_arc(&track, u, &room, 0.5 * tolerance, Some((&found, 2.0))).unwrap();
+                assert!((less.shape.reach[0] / found.shape.reach[0] - 0.5f64.powf(0.25)).abs() < 0.02);
+            }
+        }
+    }
 }

@@ -7,8 +7,10 @@
 //! **Method.** A node at every apex and inflection would cost an arc or two at each. So one arc is laid
 //! over every apex first, and is the extremum itself; biarcs between run over inflections. Having the
 //! mean curvature of their parts, arcs rise and fall as the curve does. Where the curvatures show
-//! another picture than the cuts all the same, the nearest cut gets a node; where that does not help,
-//! its neighborhood gets a more careful scheme.
+//! another picture than the cuts all the same, the arc over the nearest apex becomes shorter, and in the
+//! end that cut gets a node; where that does not help, its neighborhood gets a more careful scheme. Arcs
+//! over apices become shorter, too, where their tangents do not suit the biarcs beside them; that is known
+//! before these are laid.
 
 use super::apex::{ApexArc, Room, apex_arc};
 use super::biarc::Node;
@@ -212,7 +214,7 @@ impl Work<'_, '_> {
         let place = self.track.place(u);
         let way = limits.map(|limit| (self.track.place(limit) - place).length());
         let room = Room { limits, most: way.map(|way| APEX_SHARE * way) };
-        let other = before.as_ref().map(|other| (other, STEP));
+        let other = before.as_ref().map(|other| (other, STEP.recip()));
         apex_arc(self.track, u, &room, self.tolerance * STEP.powi(steps), other)
     }
 }

@@ -21,8 +21,10 @@ const DEGREE: usize = 3;
 /// The bound is above the largest distance found by one of these parts of it, or is the limit.
 const SLACKS: [f64; 3] = [1.0 / 256.0, 1.0 / 64.0, 1.0 / 16.0];
 
-/// Steps of Newton's method for a stationary place.
-const STEPS: usize = 2;
+/// Steps of Newton's method for a stationary place at most, and the length of the last one: the value there
+/// is as good as the square of that.
+const STEPS: usize = 8;
+const LAST_STEP: f64 = 1e-5;
 
 /// A polynomial of degree 6.
 type Sextic = [f64; 2 * DEGREE + 1];
@@ -178,7 +180,13 @@ fn values(n: &Sextic, d: &Sextic, rational: bool) -> [f64; 4] {
                 v1 / v2
             };
             let next = z - step;
-            z = if next.abs() <= 1.0 { next } else { z };
+            if next.abs() > 1.0 || next.is_nan() {
+                break;
+            }
+            z = next;
+            if step.abs() <= LAST_STEP {
+                break;
+            }
         }
         ratio(z)
     });
@@ -197,4 +205,51 @@ fn exceeds(n: &Sextic, d: &Sextic, bound: f64) -> bool {
         let [a, b] = stationary(&c);
         value(-1.0).min(value(1.0)).min(value(a)).min(value(b)) >= rest
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::boundary::freeform::biarc::Arc;
+    use crate::geom::vector;
+
+    #[test]
+    fn it_says_what_division_says() {
+        let points = [vector(0.0, 0.0), vector(0.33, 0.011), vector(0.67, 0.012), vector(1.0, 0.001)];
+        for weights in [[1.0; 4], [1.0, 1.1, 0.9, 1.05]] {
+            let whole = Piece::new(&points, &weights);
+            for (from, to) in [(0.0, 1.0), (0.25, 0.5), (0.6, 1.0)] {
+                let (start, end) = (whole.at(from), whole.at(to));
+                for bulge in [0.0, -0.01, 0.003] {
+                    let frame = Frame::of(&Arc { start, end, bulge });
+                    let quick = measure(&frame, &whole, (from, to), 0.0).expect("it hardly turns");
+                    let slow = frame.measure(whole.part(from, to), 0.0);
+                    assert!((quick.found - slow.found).abs() <= 1e-6 * slow.found, "{quick:?} {slow:?}");
+                    assert!(
+                        quick.bound >= slow.found && quick.bound <= 1.07 * slow.found,
+                        "{quick:?} {slow:?}"
+                    );
+                    let [left, right] = sides(&frame, &whole, (from, to)).expect("a cubic");
+                    assert!((left.max(right) - slow.found).abs() <= 1e-6 * slow.found);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn at_the_limit_a_bound_is_the_limit() {
+        let points = [(0.0, 0.0), (1.0, 1.1e-5), (2.0, 1.2e-5), (3.0, 0.0)].map(|(x, y)| vector(x, y));
+        let whole = Piece::new(&points, &[1.0; 4]);
+        let frame = Frame::of(&Arc { start: vector(0.0, 0.0), end: vector(3.0, 0.0), bulge: -1e-5 });
+        let found = measure(&frame, &whole, (0.0, 1.0), 0.0).expect("it hardly turns").found;
+        let limit = found * 1.0001;
+        assert!(measure(&frame, &whole, (0.0, 1.0), limit).is_some_and(|d| d.bound <= limit));
+    }
+
+    #[test]
+    fn what_turns_back_is_left_to_division() {
+        let points = [vector(0.0, 0.0), vector(3.0, 0.1), vector(-2.0, 0.1), vector(1.0, 0.0)];
+        let frame = Frame::of(&Arc { start: vector(0.0, 0.0), end: vector(1.0, 0.0), bulge: -0.05 });
+        assert!(measure(&frame, &Piece::new(&points, &[1.0; 4]), (0.0, 1.0), 0.0).is_none());
+    }
 }

@@ -9,8 +9,9 @@
 //! its part, with all joints on the curve: `C` is `sqrt(3) / 216`, the best for arcs with common
 //! tangents, and curvatures stay monotone. So the density of biarcs is known from `k'`, and its integral
 //! says how many there must be. Nodes at equal shares of it come first; errors measured correct the
-//! density, until all are below the tolerance. Next to an arc over an apex one arc alone can take
-//! the place of a biarc: its end turns the tangent there about as much as it should.
+//! density, until all are below the tolerance. Beside an arc over an apex the tangent is given: cells
+//! there are as narrow as suits it, and where it is too steep that arc has to yield. One arc alone may
+//! take the place of a biarc, in the middle, where its tangents are those that its neighbors want.
 
 use super::biarc::{Arc, Joint, Node};
 use super::density::{Cursor, Density};
@@ -312,6 +313,17 @@ impl Spread {
         }
     }
 
+    /// Lets the growth fade from cell to cell, as arcs of different lengths side by side turn the tangent
+    /// between wrongly.
+    fn smooth(&mut self) {
+        for i in 1..self.growth.len() {
+            self.growth[i] = self.growth[i].max(0.5 + 0.5 * self.growth[i - 1]);
+        }
+        for i in (1..self.growth.len()).rev() {
+            self.growth[i - 1] = self.growth[i - 1].max(0.5 + 0.5 * self.growth[i]);
+        }
+    }
+
     /// Judges a layout; the density is corrected by its errors.
     fn judge(&mut self, goal: &Goal, steep: [bool; 2], many: bool) -> Judged {
         let corrected = self.marks[self.marks.len() - 1][1];
@@ -345,13 +357,7 @@ impl Spread {
             judged.yielding = [false; 2];
         }
         if many {
-            // Smoothly, as arcs of different lengths side by side turn the tangent between wrongly.
-            for i in 1..self.growth.len() {
-                self.growth[i] = self.growth[i].max(0.5 + 0.5 * self.growth[i - 1]);
-            }
-            for i in (1..self.growth.len()).rev() {
-                self.growth[i - 1] = self.growth[i - 1].max(0.5 + 0.5 * self.growth[i]);
-            }
+            self.smooth();
         }
         for i in 0..self.cells.len() {
             let width = self.widths[i] * scale;
