@@ -112,5 +112,7 @@ pub use geom::{ArcSpline, Bounds, Element, Ellipse, Point, Spline, Vector, Verte
 pub use mat::{AxisEdge, AxisVertex, Counts, Disk, Kind, Mat, Mismatch, Residuals, SiteKind, SiteRef};
 pub use offset::{Exterior, Level, LevelSets, MergeTree, Part};
 pub use tolerance::{Tolerance, Units};
-pub use toolpath::{Direction, Entry, Job, Move, Path, PocketPath, Point3, Rest, Start, Strategy, Totals};
+pub use toolpath::{
+    Direction, Entry, Job, Move, Order, Path, PocketPath, Point3, Rest, Start, Strategy, Totals,
+};
 pub use verify::{Comparison, Disagreement, DisagreementKind, Fault, FaultKind, LevelReport, Party};

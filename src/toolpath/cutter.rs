@@ -25,6 +25,18 @@ pub struct Totals {
 }
 
 impl Totals {
+    /// Both together.
+    pub(super) fn and(&self, more: &Totals) -> Totals {
+        Totals {
+            cut_length: self.cut_length + more.cut_length,
+            rapid_length: self.rapid_length + more.rapid_length,
+            retracts: self.retracts + more.retracts,
+            arcs: self.arcs + more.arcs,
+            lines: self.lines + more.lines,
+            minutes: self.minutes + more.minutes,
+        }
+    }
+
     /// What came on top of earlier totals.
     pub(super) fn since(&self, before: &Totals) -> Totals {
         Totals {

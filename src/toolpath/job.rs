@@ -26,6 +26,17 @@ pub enum Start {
     Outside,
 }
 
+/// What comes first where there is more than one pocket.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Order {
+    /// Each pocket down to its floor.
+    #[default]
+    Pocket,
+    /// All pockets height by height: thin walls between them stay stiff.
+    Level,
+}
+
 /// How the tool gets down into the stock.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -82,6 +93,8 @@ pub struct Job {
     pub strategy: Strategy,
     /// Where a pocket begins.
     pub start: Start,
+    /// Whether pockets are cut one after the other or height by height.
+    pub order: Order,
     /// How the tool gets down.
     pub entry: Entry,
     /// Whether links may cut through stock as wide as the tool, where nothing beside a pass is cut yet:
@@ -126,6 +139,7 @@ impl Job {
             direction: Direction::Climb,
             strategy: Strategy::Offset,
             start: Start::Inside,
+            order: Order::Pocket,
             entry: Entry::Helix,
             slot: false,
             ramp_angle: 3.0,

@@ -45,7 +45,7 @@ mod warning;
 mod width;
 
 pub use cutter::Totals;
-pub use job::{Direction, Entry, Job, Start, Strategy};
+pub use job::{Direction, Entry, Job, Order, Start, Strategy};
 pub use moves::{Move, Point3};
 pub use path::{Path, PocketPath};
 pub use rest::Rest;

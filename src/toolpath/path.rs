@@ -2,12 +2,12 @@
 
 use super::cutter::Totals;
 use super::job::MAX_HEIGHTS;
-use super::plan::{Amounts, IsClear, MAX_MOVES, Planner};
+use super::plan::{Amounts, MAX_MOVES, Planner, Prepared};
 use super::rest::{Rest, rest};
 use super::roads::Roads;
 use super::route::route;
 use super::time::minutes;
-use super::{Job, Move, Warning};
+use super::{Job, Move, Order, Warning};
 use crate::error::Error;
 use crate::geom::{Element, Point};
 use crate::mat::{Disk, Mat};
@@ -40,8 +40,9 @@ pub struct Path {
 pub struct PocketPath {
     /// The level sets that are used, outermost first.
     pub levels: Vec<Level>,
-    /// Which of the moves cut this pocket.
-    pub moves: Range<usize>,
+    /// Which of the moves cut this pocket: one range, or one for each height where all pockets are cut
+    /// height by height.
+    pub moves: Vec<Range<usize>>,
     /// Loops and ridges cut, counted once for each height.
     pub passes: usize,
     /// Passes along parts of the axis, for what stands between levels more than half the tool apart;
@@ -82,6 +83,23 @@ pub struct PocketPath {
 }
 
 impl PocketPath {
+    /// Cuts some heights and adds up what that amounts to.
+    fn cut(
+        &mut self,
+        planner: &mut Planner,
+        pocket: &mut Prepared,
+        heights: Range<usize>,
+    ) -> Result<(), Error> {
+        let (before, totals) = (planner.cutter.moves.len(), planner.cutter.totals);
+        planner.cut(pocket, heights)?;
+        planner.cutter.leave();
+        self.passes = pocket.passes();
+        self.take(&pocket.amounts);
+        self.totals = self.totals.and(&planner.cutter.totals.since(&totals));
+        self.moves.push(before..planner.cutter.moves.len());
+        Ok(())
+    }
+
     fn take(&mut self, amounts: &Amounts) {
         (self.crests, self.crest_length) = (amounts.crests, amounts.crest_length);
         (self.entry_length, self.link_length) = (amounts.entry_length, amounts.link_length);
@@ -133,11 +151,8 @@ impl Job {
             self.note_room(&mut path, pocket, &own, largest, neck);
             path.pockets.push(own);
         }
-        for pocket in self.order(mats, &path.pockets) {
-            let mat = &mats[pocket];
-            let is_clear = |link: &Element, radius: f64| mat.is_clear(link, radius);
-            self.cut(&mut planner, &mut path.pockets[pocket], &levels[pocket], (&is_clear, mat))?;
-            path.pockets[pocket].most_retracts = self.most_retracts(mat, &levels[pocket]);
+        if self.tool > 0.0 {
+            self.cut(&mut planner, &mut path.pockets, mats, &levels)?;
         }
         for (own, levels) in path.pockets.iter_mut().zip(levels) {
             own.levels = levels;
@@ -152,23 +167,37 @@ impl Job {
         route(&places).into_iter().map(|i| machined[i]).collect()
     }
 
+    /// Cuts the pockets one after the other, or all of them height by height.
     fn cut(
         &self,
         planner: &mut Planner,
-        own: &mut PocketPath,
-        levels: &[Level],
-        (is_clear, mat): (&IsClear, &Mat),
+        pockets: &mut [PocketPath],
+        mats: &[Mat],
+        levels: &[Vec<Level>],
     ) -> Result<(), Error> {
-        let (before, totals) = (planner.cutter.moves.len(), planner.cutter.totals);
-        if self.tool > 0.0 && own.machined {
-            planner.amounts = Amounts::default();
-            own.passes = planner.pocket(levels, is_clear, Some(mat))?;
-            planner.cutter.leave();
-            own.take(&planner.amounts);
-            own.unreachable = rest(&Roads::new(mat), self.wall_distance(), self.overlap());
+        let order = self.order(mats, pockets);
+        for &i in &order {
+            pockets[i].most_retracts = self.most_retracts(&mats[i], &levels[i]);
+            pockets[i].unreachable = rest(&Roads::new(&mats[i]), self.wall_distance(), self.overlap());
         }
-        own.totals = planner.cutter.totals.since(&totals);
-        own.moves = before..planner.cutter.moves.len();
+        let clear = |mat| move |link: &Element, radius: f64| Mat::is_clear(mat, link, radius);
+        let is_clear: Vec<_> = mats.iter().map(clear).collect();
+        let ready = |planner: &Planner, i: usize| planner.prepare(&levels[i], &is_clear[i], Some(&mats[i]));
+        let heights = self.heights().len();
+        if self.order == Order::Pocket {
+            for i in order {
+                let mut pocket = ready(planner, i);
+                pockets[i].cut(planner, &mut pocket, 0..heights)?;
+            }
+            return Ok(());
+        }
+        let mut prepared: Vec<(usize, Prepared)> =
+            order.into_iter().map(|i| (i, ready(planner, i))).collect();
+        for height in 0..heights {
+            for (i, pocket) in &mut prepared {
+                pockets[*i].cut(planner, pocket, height..height + 1)?;
+            }
+        }
         Ok(())
     }
 
@@ -189,8 +218,11 @@ impl Job {
     /// How long it takes, each pocket and all.
     fn estimate(&self, path: &mut Path) {
         for own in &mut path.pockets {
-            let before = own.moves.start.checked_sub(1).map(|i| path.moves[i].to());
-            own.totals.minutes = minutes(before, &path.moves[own.moves.clone()], self);
+            let of_moves = |range: &Range<usize>| {
+                let before = range.start.checked_sub(1).map(|i| path.moves[i].to());
+                minutes(before, &path.moves[range.clone()], self)
+            };
+            own.totals.minutes = own.moves.iter().map(of_moves).sum();
         }
         path.totals.minutes = path.pockets.iter().map(|own| own.totals.minutes).sum();
     }

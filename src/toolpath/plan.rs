@@ -22,6 +22,7 @@ use crate::geom::{ArcSpline, Bounds, Element, Point};
 use crate::mat::Mat;
 use crate::offset::Level;
 use rstar::RTree;
+use std::ops::Range;
 
 /// Largest number of moves of a path.
 pub(super) const MAX_MOVES: u64 = 20_000_000;
@@ -88,6 +89,24 @@ pub(super) struct Ground<'a> {
     pub begin: Vec<Option<Point>>,
 }
 
+/// A pocket that is ready to be cut, height by height.
+pub(super) struct Prepared<'a> {
+    ground: Ground<'a>,
+    /// Passes cut at every height, and those that wait for the floor.
+    rough: Vec<usize>,
+    wall: Vec<usize>,
+    pub heights: Vec<f64>,
+    /// What was cut of it so far but passes.
+    pub amounts: Amounts,
+}
+
+impl Prepared<'_> {
+    /// How many passes it has, counted once for each height.
+    pub fn passes(&self) -> usize {
+        self.rough.len() * self.heights.len() + self.wall.len()
+    }
+}
+
 /// From where to where one height is cut.
 #[derive(Clone, Copy)]
 pub(super) struct Height {
@@ -107,13 +126,13 @@ impl<'a> Planner<'a> {
         }
     }
 
-    /// Cuts a pocket and answers the number of passes. Without its axis, links are straight.
-    pub fn pocket(
-        &mut self,
-        levels: &[Level],
-        is_clear: &IsClear,
-        mat: Option<&Mat>,
-    ) -> Result<usize, Error> {
+    /// Makes a pocket ready to be cut. Without its axis, links are straight.
+    pub fn prepare<'g>(
+        &self,
+        levels: &'g [Level],
+        is_clear: &'g IsClear<'g>,
+        mat: Option<&'g Mat>,
+    ) -> Prepared<'g> {
         let bounds = levels
             .iter()
             .take(1)
@@ -149,22 +168,32 @@ impl<'a> Planner<'a> {
             ground.plan_beginnings(&wall);
         }
         let rank = ground.settle_crests(rough.iter().chain(&wall));
-        self.widths(&mut ground, &rough, &wall, &rank);
         let heights = self.job.heights();
-        let mut surface = self.job.top;
-        for &z in &heights {
+        let amounts = self.widths(&mut ground, (&rough, &wall), heights.len(), &rank);
+        Prepared { ground, rough, wall, heights, amounts }
+    }
+
+    /// Cuts a pocket at some of its heights, counted from the top, and its finishing passes with the
+    /// last.
+    pub fn cut(&mut self, pocket: &mut Prepared, heights: Range<usize>) -> Result<(), Error> {
+        let Prepared { ground, rough, wall, heights: all, amounts } = pocket;
+        self.amounts = *amounts;
+        for i in heights.clone() {
             ground.done.fill(false);
             ground.last = None;
-            self.passes(&mut ground, &rough, Height { surface, z })?;
-            surface = z;
+            let surface = i.checked_sub(1).map_or(self.job.top, |above| all[above]);
+            self.passes(ground, rough, Height { surface, z: all[i] })?;
         }
-        let height = Height { surface: self.job.top, z: surface };
-        for (i, &pass) in wall.iter().enumerate() {
-            if !self.finish_wall(&mut ground, pass, height)? {
-                self.pass(&mut ground, pass, &wall[i + 1..], height)?;
+        if heights.end == all.len() {
+            let height = Height { surface: self.job.top, z: self.job.floor() };
+            for (i, &pass) in wall.iter().enumerate() {
+                if !self.finish_wall(ground, pass, height)? {
+                    self.pass(ground, pass, &wall[i + 1..], height)?;
+                }
             }
         }
-        Ok(rough.len() * heights.len() + wall.len())
+        *amounts = self.amounts;
+        Ok(())
     }
 
     /// Ends the path; answers what could not be done as asked.
@@ -201,17 +230,27 @@ impl<'a> Planner<'a> {
     }
 
     /// How wide the passes cut, at all heights.
-    fn widths(&mut self, ground: &mut Ground, rough: &[usize], wall: &[usize], rank: &[usize]) {
-        let Some(roads) = &ground.roads else { return };
+    fn widths(
+        &self,
+        ground: &mut Ground,
+        (rough, wall): (&[usize], &[usize]),
+        heights: usize,
+        rank: &[usize],
+    ) -> Amounts {
+        let Some(roads) = &ground.roads else { return Amounts::default() };
         let Ground { levels, nest, slack, .. } = &*ground;
         let (tool_radius, flat) = (self.job.radius(), self.job.overlap());
         let reach = Reach { levels, nest, tool_radius, flat, slack: *slack };
         let widths = Widths::new(self.job, roads, &reach, rank);
         let full = |order: &[usize]| order.iter().map(|&pass| widths.full[pass]).sum::<f64>();
-        let heights = self.job.heights().len() as f64;
-        self.amounts.full_width_length += heights * full(rough) + full(wall);
-        (self.amounts.largest_step, self.amounts.largest_step_at) = (widths.largest_step, widths.at);
+        let amounts = Amounts {
+            full_width_length: heights as f64 * full(rough) + full(wall),
+            largest_step: widths.largest_step,
+            largest_step_at: widths.at,
+            ..Amounts::default()
+        };
         ground.fresh = widths.fresh;
+        amounts
     }
 
     fn passes(&mut self, ground: &mut Ground, order: &[usize], height: Height) -> Result<(), Error> {

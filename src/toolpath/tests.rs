@@ -1,6 +1,6 @@
 //! Paths over level sets that are known without an axis: squares, rings, slots.
 
-use super::plan::Planner;
+use super::plan::{IsClear, Planner};
 use super::*;
 use crate::geom::{ArcSpline, Element, Point, point};
 use crate::offset::Level;
@@ -52,10 +52,18 @@ struct Planned {
     passes: usize,
 }
 
+/// Cuts a pocket without its axis and answers the number of passes.
+fn cut(planner: &mut Planner, levels: &[Level], is_clear: &IsClear) -> Result<usize, crate::Error> {
+    let mut pocket = planner.prepare(levels, is_clear, None);
+    let heights = 0..pocket.heights.len();
+    planner.cut(&mut pocket, heights)?;
+    Ok(pocket.passes())
+}
+
 fn plan(level: fn(f64) -> Level, depth: fn(Point) -> f64, job: &Job) -> Planned {
     job.validate().unwrap();
     let mut planner = Planner::new(job);
-    let passes = planner.pocket(&levels(level, job), &clear(depth), None).unwrap();
+    let passes = cut(&mut planner, &levels(level, job), &clear(depth)).unwrap();
     let warnings = planner.finish();
     Planned {
         moves: std::mem::take(&mut planner.cutter.moves),
@@ -274,7 +282,7 @@ fn a_place_where_the_tool_just_fits_is_drilled_and_said() {
 fn links_that_would_meet_the_wall_are_not_taken() {
     let job = job();
     let mut planner = Planner::new(&job);
-    planner.pocket(&levels(square_level, &job), &|_: &Element, _| false, None).unwrap();
+    cut(&mut planner, &levels(square_level, &job), &|_: &Element, _| false).unwrap();
     planner.finish();
     // Each pass of each height is entered for itself.
     assert_eq!(planner.cutter.totals.retracts, 8);
@@ -284,7 +292,7 @@ fn links_that_would_meet_the_wall_are_not_taken() {
 fn too_many_moves_are_an_error_and_not_a_hang() {
     let job = Job { ramp_angle: 1e-9, depth: 1e6, step_down: Some(1e6), ..job() };
     let mut planner = Planner::new(&job);
-    let result = planner.pocket(&levels(square_level, &job), &clear(depth_in_square), None);
+    let result = cut(&mut planner, &levels(square_level, &job), &clear(depth_in_square));
     assert!(matches!(result, Err(crate::Error::Effort { .. })));
 }
 

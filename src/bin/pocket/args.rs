@@ -110,6 +110,10 @@ pub struct Args {
     #[arg(long, value_enum, default_value_t, help_heading = "Tool and passes")]
     pub start: StartArg,
 
+    /// Each pocket down to its floor, or all of them level by level, for thin walls between them
+    #[arg(long, value_enum, default_value_t, help_heading = "Tool and passes")]
+    pub order: OrderArg,
+
     /// How the tool gets down; falls back in this order where it does not fit
     #[arg(long, value_enum, default_value_t, help_heading = "Machine")]
     pub entry: EntryArg,
@@ -257,6 +261,14 @@ pub enum StartArg {
     #[default]
     Inside,
     Outside,
+}
+
+/// `--order`.
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+pub enum OrderArg {
+    #[default]
+    Pocket,
+    Level,
 }
 
 /// `--entry`.

@@ -1,13 +1,15 @@
 //! What the command line means, once the unit of the job is known.
 
-use crate::args::{ArcsArg, Args, CoolantArg, DirectionArg, EntryArg, PostArg, StartArg, StrategyArg};
+use crate::args::{
+    ArcsArg, Args, CoolantArg, DirectionArg, EntryArg, OrderArg, PostArg, StartArg, StrategyArg,
+};
 use crate::failure::Failure;
 use crate::length::{Length, Step};
 use crate::notice::short;
 use crate::reading::UnitsArg;
 use medial::Units;
 use medial::io::gcode::{ArcWords, Coolant, Setup};
-use medial::toolpath::{Direction, Entry, Job, Start, Strategy};
+use medial::toolpath::{Direction, Entry, Job, Order, Start, Strategy};
 
 /// Step in percent of the tool, when only the tool is given.
 const DEFAULT_PERCENT: f64 = 40.0;
@@ -53,6 +55,10 @@ impl Args {
             start: match self.start {
                 StartArg::Inside => Start::Inside,
                 StartArg::Outside => Start::Outside,
+            },
+            order: match self.order {
+                OrderArg::Pocket => Order::Pocket,
+                OrderArg::Level => Order::Level,
             },
             entry: match self.entry {
                 EntryArg::Helix => Entry::Helix,
