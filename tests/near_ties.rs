@@ -8,7 +8,7 @@ type Loop<'a> = &'a [(f64, f64, f64)];
 /// Levels per pocket, as shares of the largest radius.
 const LEVELS: [f64; 5] = [0.03, 0.25, 0.5, 0.75, 0.97];
 
-/// The axis passes its certificate and its levels are right; `None` if no axis is right for the loops.
+/// What the certificate or the judge of levels says against a pocket.
 fn fault(loops: &[Loop<'_>]) -> Option<String> {
     let loops = loops.iter().map(|l| ArcSpline::closed(l.iter().copied())).collect();
     let pocket = match Pocket::from_loops(loops, Tolerance::MM) {
