@@ -140,11 +140,25 @@ impl Crest {
 
 impl Reach<'_> {
     /// The parts of edges between each level and the next, beside which that level has no neighbor
-    /// inside: the level, the edge, and the parameters where they begin and end.
-    pub fn between_levels(&self, roads: &Roads) -> Vec<(usize, u32, [f64; 2])> {
+    /// inside: the level, the edge, and the parameters where they begin and end. Where an edge leads all
+    /// the way to the next level, a whole step, it is left out if `is_plain` says so.
+    pub fn between_levels(
+        &self,
+        roads: &Roads,
+        is_plain: impl Fn(u32, f64) -> bool,
+    ) -> Vec<(usize, u32, [f64; 2])> {
         let whole = Reach { tool_radius: 0.0, ..*self };
-        let parts = (0..roads.edge_count()).flat_map(|edge| whole.bands(roads, edge));
-        parts.map(|part| (part.level, part.edge, part.t)).collect()
+        let parts = |edge| {
+            let radii = roads.radii(edge);
+            let [low, high] = [radii[0].min(radii[1]), radii[0].max(radii[1])];
+            let is_told = |&k: &usize| {
+                let (d, e) = (self.levels[k].distance, self.top(k));
+                d < low || e > high || !is_plain(edge, e - d)
+            };
+            let levels = whole.levels_along(roads, edge).filter(is_told);
+            levels.filter_map(|k| whole.part(roads, edge, k)).collect::<Vec<_>>()
+        };
+        (0..roads.edge_count()).flat_map(parts).map(|part| (part.level, part.edge, part.t)).collect()
     }
 
     /// The level inside of level `k`; beyond everything for the last.
@@ -175,11 +189,15 @@ impl Reach<'_> {
 
     /// The parts of one edge.
     fn bands(&self, roads: &Roads, edge: u32) -> Vec<Part> {
+        self.levels_along(roads, edge).filter_map(|level| self.part(roads, edge, level)).collect()
+    }
+
+    /// The levels whose bands an edge may lead through.
+    fn levels_along(&self, roads: &Roads, edge: u32) -> impl Iterator<Item = usize> {
         let radii = roads.radii(edge);
         let [low, high] = [radii[0].min(radii[1]), radii[0].max(radii[1])];
         let levels = self.first_level(low)..self.levels.len();
-        let below = |&k: &usize| self.levels[k].distance + self.tool_radius + self.slack < high;
-        levels.take_while(below).filter_map(|level| self.part(roads, edge, level)).collect()
+        levels.take_while(move |&k| self.levels[k].distance + self.tool_radius + self.slack < high)
     }
 
     /// Where only one part ends at a vertex, the axis does: along all other edges the radius grows,

@@ -136,6 +136,17 @@ impl<'a> Roads<'a> {
         self.site(edge, side).carrier_distance(self.mat.frame.enter(p)).1
     }
 
+    /// How far the directions of the spokes on both sides of an edge lie apart at most: what they do at
+    /// one end, and what they turn by till the other.
+    pub fn opening(&self, edge: u32) -> f64 {
+        let spokes = |side| self.ends(edge).map(|v| self.spoke(edge, side, self.vertices[v as usize].0));
+        let [a, b] = [0, 1].map(spokes);
+        let turns = [a, b].map(|[begin, end]| (end - begin).length());
+        // Within a quarter turn no direction between is farther from the first than the last.
+        let is_bounded = turns.iter().all(|turn| *turn < std::f64::consts::SQRT_2);
+        if is_bounded { (b[0] - a[0]).length() + turns[0] + turns[1] } else { f64::INFINITY }
+    }
+
     /// The offset at distance `d` of the wall on a side of an edge, between the spokes of two spots.
     pub fn offset(&self, edge: u32, side: usize, t: [f64; 2], d: f64) -> Element {
         let site = self.site(edge, side);

@@ -60,8 +60,8 @@ impl Widths {
                 widths.step(apart, door.at);
             }
         }
-        let trees: Vec<RTree<Indexed>> = reach.levels.par_iter().map(index).collect();
-        let parts = reach.between_levels(roads);
+        let parts = widths.parts(job, roads, reach);
+        let trees = trees(reach, &parts);
         let of_part = |&(level, edge, t): &(usize, u32, [f64; 2])| {
             let beside = Beside { job, roads, reach, trees: &trees, rank, level, edge };
             beside.tell(t)
@@ -88,6 +88,22 @@ impl Widths {
         widths
     }
 
+    /// The parts of edges that may tell something. Many may lead across many levels, each from corner
+    /// to center of a polygon: where the spokes on both sides are nearly one, nothing is wide.
+    fn parts(&self, job: &Job, roads: &Roads, reach: &Reach) -> Vec<(usize, u32, [f64; 2])> {
+        let openings: Vec<f64> = (0..roads.edge_count()).map(|edge| roads.opening(edge)).collect();
+        let is_plain = |edge: u32, step: f64| {
+            let opening = openings[edge as usize];
+            let steep = (1.0 - 0.25 * opening * opening).max(0.0).sqrt();
+            // No place of the pass is farther from where the edge meets the next level than that part
+            // of the edge is long, as the radius grows no faster than the edge.
+            let is_near = step < job.tool * steep;
+            let is_narrow = opening * step <= self.largest_step && step <= job.radius();
+            job.slow == 1.0 && is_near && is_narrow
+        };
+        reach.between_levels(roads, is_plain)
+    }
+
     fn step(&mut self, apart: f64, at: Point) {
         if apart > self.largest_step {
             (self.largest_step, self.at) = (apart, Some(at));
@@ -105,6 +121,16 @@ impl Widths {
             }
         }
     }
+}
+
+/// The levels that parts of edges lie beside, and those inside of them, made ready for search.
+fn trees(reach: &Reach, parts: &[(usize, u32, [f64; 2])]) -> Vec<RTree<Indexed>> {
+    let mut is_asked = vec![false; reach.levels.len() + 1];
+    for &(level, ..) in parts {
+        is_asked[level..level + 2].fill(true);
+    }
+    let tree = |(level, is_asked): (_, &bool)| if *is_asked { index(level) } else { RTree::new() };
+    reach.levels.par_iter().zip(&is_asked).map(tree).collect()
 }
 
 /// A part of an edge between two levels.
