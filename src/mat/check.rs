@@ -9,6 +9,7 @@ use super::track::inner_disk;
 use super::union::Sets;
 use super::{Mat, Mismatch};
 use crate::geom::Point;
+use rayon::prelude::*;
 
 /// Residuals up to this many times the round-off of a drawn coordinate are round-off.
 ///
@@ -27,20 +28,37 @@ impl Mat {
     /// # Errors
     /// The first [`Mismatch`] found.
     pub fn check(&self) -> Result<Residuals, Mismatch> {
+        self.checked(0.0)
+    }
+
+    /// The same with a wish: residuals up to a length in job units are right, as those of round-off are.
+    /// What is computed from an axis that keeps the tolerance of a job is as near to the truth.
+    ///
+    /// # Errors
+    /// The first [`Mismatch`] found.
+    pub fn check_within(&self, length: f64) -> Result<Residuals, Mismatch> {
+        self.checked(self.frame.length_in(length))
+    }
+
+    fn checked(&self, wish: f64) -> Result<Residuals, Mismatch> {
         self.check_topology()?;
         let mut found = Findings::default();
         for touch in self.touches()? {
             self.check_touch(&touch, &mut found);
         }
-        for disk in &self.graph.disks {
-            found.note(Residual::Empty, self.intrusion(disk), disk.center);
+        let (disks, edges) = (&self.graph.disks, &self.graph.edges);
+        let intrusions: Vec<f64> = disks.par_iter().map(|disk| self.intrusion(disk)).collect();
+        for (disk, intrusion) in disks.iter().zip(intrusions) {
+            found.note(Residual::Empty, intrusion, disk.center);
         }
-        for edge in &self.graph.edges {
-            self.check_middle(edge, &mut found);
+        let middles: Vec<_> = edges.par_iter().map(|edge| self.middle(edge)).collect();
+        for (center, intrusion, beyond) in middles {
+            found.note(Residual::Empty, intrusion, center);
+            found.note(Residual::Monotone, beyond, center);
         }
         let allowed = |r: Residual| match r {
-            Residual::Foot => self.foot_error(),
-            _ => self.residual_error(),
+            Residual::Foot => self.foot_error().max(wish.sqrt()),
+            _ => self.residual_error().max(wish),
         };
         let within = |(r, (value, _)): &(Residual, (f64, Point))| *value <= allowed(*r);
         // NaN is within nothing.
@@ -64,18 +82,18 @@ impl Mat {
         );
     }
 
-    /// Whether the disk in the middle of an edge is empty, and as large as between its ends.
-    fn check_middle(&self, edge: &GraphEdge, found: &mut Findings) {
+    /// The disk in the middle of an edge: its center, how far the boundary reaches into it, and how far
+    /// its radius lies beyond those of the ends.
+    fn middle(&self, edge: &GraphEdge) -> (Point, f64, f64) {
         let pieces = edge.pieces.map(|p| &self.graph.pieces[p as usize].piece);
         let ends = edge.disks.map(|d| &self.graph.disks[d as usize]);
         let disk = inner_disk(&self.sites, pieces, self.graph.error).unwrap_or(UnitDisk {
             center: ends[0].center.midpoint(ends[1].center),
             radius: 0.5 * (ends[0].radius + ends[1].radius),
         });
-        found.note(Residual::Empty, self.intrusion(&disk), disk.center);
         let radii = ends.map(|d| d.radius);
         let beyond = (disk.radius - radii[0].max(radii[1])).max(radii[0].min(radii[1]) - disk.radius);
-        found.note(Residual::Monotone, beyond.max(0.0), disk.center);
+        (disk.center, self.intrusion(&disk), beyond.max(0.0))
     }
 
     /// Largest distance of a center from the normal at a footpoint that is round-off: disks that

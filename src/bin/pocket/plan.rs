@@ -9,7 +9,7 @@ use medial::io::dxf::{self, Drawing, Sheet};
 use medial::io::json::Document;
 use medial::io::svg::Picture;
 use medial::toolpath::{Job, Path};
-use medial::{Error, Mat, Pocket, Pockets, Tolerance};
+use medial::{Error, Mat, Mismatch, Pocket, Pockets, Tolerance};
 use std::io;
 
 /// All that is known when the work is done.
@@ -58,7 +58,8 @@ impl Plan {
         })?;
         progress.stage("offsets");
         let levels = timed(&mut timings.offsets, || {
-            mats.iter().map(|mat| job.levels(mat)).collect::<Result<Vec<_>, _>>()
+            let levels = |mat: &Mat| certified(mat, tolerance).and_then(|mat| job.levels(mat));
+            mats.iter().map(levels).collect::<Result<Vec<_>, _>>()
         })?;
         progress.stage("tool path");
         let path = timed(&mut timings.path, || job.path_along(&mats, levels))?;
@@ -101,6 +102,18 @@ impl Plan {
             .path(&self.path.moves)
             .to_svg()
     }
+}
+
+/// An axis, unless it does not keep the tolerance: no program is better than one that cuts elsewhere.
+fn certified(mat: &Mat, tolerance: Tolerance) -> Result<&Mat, Error> {
+    let internal = |fault: Mismatch| {
+        let at = match fault {
+            Mismatch::Boundary { at } | Mismatch::Residual { at, .. } => at,
+            _ => mat.largest_disk().center,
+        };
+        Error::Internal { what: fault.to_string(), at }
+    };
+    mat.check_within(tolerance.fit).map(|_| mat).map_err(internal)
 }
 
 fn pockets(

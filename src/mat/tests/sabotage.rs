@@ -117,6 +117,18 @@ fn a_disk_larger_or_smaller_by_a_millionth_of_the_size_is_seen() {
 }
 
 #[test]
+fn what_is_off_by_less_than_the_wish_is_right() {
+    for (name, pocket) in pockets() {
+        let mut mat = pocket.medial_axis().unwrap();
+        let step = HARM * size(&mat);
+        mat.graph.disks[0].radius += step;
+        let in_job_units = mat.frame.length_out(step);
+        assert!(mat.check_within(0.5 * in_job_units).is_err(), "{name}");
+        assert!(mat.check_within(2.0 * in_job_units).is_ok(), "{name}");
+    }
+}
+
+#[test]
 fn a_foot_moved_along_the_boundary_is_seen() {
     each_is_seen(
         |mat| mat.graph.pieces.len(),
