@@ -36,8 +36,8 @@ impl Mat {
     ///
     /// # Errors
     /// The first [`Mismatch`] found.
-    pub fn check_within(&self, length: f64) -> Result<Residuals, Mismatch> {
-        self.checked(self.frame.length_in(length))
+    pub fn check_within(&self, length: f64) -> Result<(), Mismatch> {
+        self.checked(self.frame.length_in(length)).map(|_| ())
     }
 
     fn checked(&self, wish: f64) -> Result<Residuals, Mismatch> {
@@ -47,11 +47,11 @@ impl Mat {
             self.check_touch(&touch, &mut found);
         }
         let (disks, edges) = (&self.graph.disks, &self.graph.edges);
-        let intrusions: Vec<f64> = disks.par_iter().map(|disk| self.intrusion(disk)).collect();
+        let intrusions: Vec<f64> = disks.par_iter().map(|disk| self.intrusion(disk, wish)).collect();
         for (disk, intrusion) in disks.iter().zip(intrusions) {
             found.note(Residual::Empty, intrusion, disk.center);
         }
-        let middles: Vec<_> = edges.par_iter().map(|edge| self.middle(edge)).collect();
+        let middles: Vec<_> = edges.par_iter().map(|edge| self.middle(edge, wish)).collect();
         for (center, intrusion, beyond) in middles {
             found.note(Residual::Empty, intrusion, center);
             found.note(Residual::Monotone, beyond, center);
@@ -84,7 +84,7 @@ impl Mat {
 
     /// The disk in the middle of an edge: its center, how far the boundary reaches into it, and how far
     /// its radius lies beyond those of the ends.
-    fn middle(&self, edge: &GraphEdge) -> (Point, f64, f64) {
+    fn middle(&self, edge: &GraphEdge, wish: f64) -> (Point, f64, f64) {
         let pieces = edge.pieces.map(|p| &self.graph.pieces[p as usize].piece);
         let ends = edge.disks.map(|d| &self.graph.disks[d as usize]);
         let disk = inner_disk(&self.sites, pieces, self.graph.error).unwrap_or(UnitDisk {
@@ -93,7 +93,7 @@ impl Mat {
         });
         let radii = ends.map(|d| d.radius);
         let beyond = (disk.radius - radii[0].max(radii[1])).max(radii[0].min(radii[1]) - disk.radius);
-        (disk.center, self.intrusion(&disk), beyond.max(0.0))
+        (disk.center, self.intrusion(&disk, wish), beyond.max(0.0))
     }
 
     /// Largest distance of a center from the normal at a footpoint that is round-off: disks that
@@ -110,9 +110,11 @@ impl Mat {
         RESIDUAL_ROUNDINGS * noise + self.blur.min((2.0 * TANGENT_ROUNDINGS * noise).sqrt())
     }
 
-    /// How far the boundary reaches into a disk.
-    fn intrusion(&self, disk: &UnitDisk) -> f64 {
-        (disk.radius - self.unit_distance(disk.center, disk.radius)).abs()
+    /// How far the boundary reaches into a disk, if by more than the wish: without one, all sites that
+    /// the disk touches would be looked at, and in a polygon that is nearly round these are all.
+    fn intrusion(&self, disk: &UnitDisk, wish: f64) -> f64 {
+        let limit = (disk.radius - wish).max(0.0);
+        (disk.radius - self.unit_distance(disk.center, limit)).abs()
     }
 
     /// Distance of a place to the boundary, in the unit frame, if it is at most about `limit`.
