@@ -102,7 +102,7 @@ impl Drawing {
         drop(loose);
         for contour in chained {
             let path = clean(&contour.path, self.grain);
-            if path.is_empty() {
+            if path.is_empty() || self.is_thin(&path) {
                 self.report_point(&contour.path);
             } else if seen.is_new(&path, |i| &contours[i].path) {
                 contours.push(Contour { path, ..contour });
@@ -111,6 +111,12 @@ impl Drawing {
         add(&mut self.copies, seen.copies);
         contours.sort_by_key(|c| c.rank);
         (contours, open)
+    }
+
+    /// Whether loose curves lie over one another within the gap that is joined: what is between them was no
+    /// island to who drew them, but the tool would go around it.
+    fn is_thin(&self, path: &ArcSpline) -> bool {
+        2.0 * path.area().abs() <= self.join * path.length()
     }
 
     /// Open curves whose ends lie on the curves that they end on.

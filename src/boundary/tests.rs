@@ -378,3 +378,16 @@ fn a_crossing_spoils_no_pocket_beside_it_in_the_outline_of_a_part() {
     assert_eq!(inside.pockets.iter().map(Pocket::area).collect::<Vec<_>>(), [375.0]);
     assert_eq!(inside.defects.len(), 2);
 }
+
+#[test]
+fn loose_lines_over_one_another_are_no_island() {
+    let line = |from: (f64, f64), to: (f64, f64)| ArcSpline::open([(from.0, from.1, 0.0), (to.0, to.1, 0.0)]);
+    let islands = |height: f64| {
+        let top = (4.25, 5.0 + height);
+        let lines = [line((4.0, 5.0), top), line(top, (4.5, 5.0)), line((4.5, 5.0), (4.0, 5.0))];
+        let found = drawn(&[&[square(0.0, 0.0, 10.0)], &lines[..]].concat());
+        let defects = found.defects.iter().filter(|d| matches!(d, Defect::NoArea { .. })).count();
+        (found.pockets[0].islands().len(), defects)
+    };
+    assert_eq!((islands(0.005), islands(0.2)), ((0, 1), (1, 0)));
+}
