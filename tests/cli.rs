@@ -443,9 +443,9 @@ fn a_reader_that_goes_away_is_quiet_success() {
 }
 
 /// The way inward links as often as the way outward: its passes begin at the feet of the inner ones. The
-/// wall of an island is entered for itself, though.
+/// wall of an island is entered for itself, so these drawings have none.
 #[test]
-fn clearing_from_outside_retracts_no_more_often() {
+fn without_islands_clearing_from_outside_retracts_no_more_often() {
     let desk = Desk::used("");
     let retracts = |name: &str, start: &str| {
         let drawing = sample(name);

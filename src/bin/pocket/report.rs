@@ -97,7 +97,8 @@ impl PocketReport<'_> {
         }
         if let Some(rest) = self.unreachable.first() {
             let places = counted(self.unreachable.len(), "place", "places");
-            text += &format!("  rest in {places}, up to {:.4} {unit} high at {}\n", rest.height, rest.at);
+            let far = format!("up to {:.4} {unit} beyond the tool at {}", rest.height, rest.at);
+            text += &format!("  out of reach in {places}, {far}\n");
         }
         text
     }
