@@ -18,6 +18,9 @@ use rayon::prelude::*;
 /// rounded ends, digits of their angle are lost. 2^17 leaves room for both.
 pub(super) const RESIDUAL_ROUNDINGS: f64 = 131_072.0;
 
+/// Disks one after the other that are looked at together.
+const NEAR: usize = 256;
+
 impl Mat {
     /// Holds the axis against its boundary: it is connected and V - E = 1 - islands (but for islands that
     /// touch others or the wall where one side is no corner: around these it does not run); its edges lie
@@ -47,14 +50,17 @@ impl Mat {
             self.check_touch(&touch, &mut found);
         }
         let (disks, edges) = (&self.graph.disks, &self.graph.edges);
-        let intrusions: Vec<f64> = disks.par_iter().map(|disk| self.intrusion(disk, wish)).collect();
-        for (disk, intrusion) in disks.iter().zip(intrusions) {
-            found.note(Residual::Empty, intrusion, disk.center);
+        let empty: Vec<(f64, Point)> =
+            disks.par_chunks(NEAR).flat_map_iter(|some| self.look(some, wish)).collect();
+        let of_edge = |edge: &GraphEdge| self.middle(edge);
+        let (middles, beyond): (Vec<UnitDisk>, Vec<f64>) = edges.par_iter().map(of_edge).unzip();
+        for (disk, beyond) in middles.iter().zip(beyond) {
+            found.note(Residual::Monotone, beyond, disk.center);
         }
-        let middles: Vec<_> = edges.par_iter().map(|edge| self.middle(edge, wish)).collect();
-        for (center, intrusion, beyond) in middles {
+        let empty_middles: Vec<(f64, Point)> =
+            middles.par_chunks(NEAR).flat_map_iter(|some| self.look(some, wish)).collect();
+        for (intrusion, center) in empty.into_iter().chain(empty_middles) {
             found.note(Residual::Empty, intrusion, center);
-            found.note(Residual::Monotone, beyond, center);
         }
         let allowed = |r: Residual| match r {
             Residual::Foot => self.foot_error().max(wish.sqrt()),
@@ -82,9 +88,8 @@ impl Mat {
         );
     }
 
-    /// The disk in the middle of an edge: its center, how far the boundary reaches into it, and how far
-    /// its radius lies beyond those of the ends.
-    fn middle(&self, edge: &GraphEdge, wish: f64) -> (Point, f64, f64) {
+    /// The disk in the middle of an edge, and how far its radius lies beyond those of the ends.
+    fn middle(&self, edge: &GraphEdge) -> (UnitDisk, f64) {
         let pieces = edge.pieces.map(|p| &self.graph.pieces[p as usize].piece);
         let ends = edge.disks.map(|d| &self.graph.disks[d as usize]);
         let disk = inner_disk(&self.sites, pieces, self.graph.error).unwrap_or(UnitDisk {
@@ -93,7 +98,7 @@ impl Mat {
         });
         let radii = ends.map(|d| d.radius);
         let beyond = (disk.radius - radii[0].max(radii[1])).max(radii[0].min(radii[1]) - disk.radius);
-        (disk.center, self.intrusion(&disk, wish), beyond.max(0.0))
+        (disk, beyond.max(0.0))
     }
 
     /// Largest distance of a center from the normal at a footpoint that is round-off: disks that
@@ -110,11 +115,23 @@ impl Mat {
         RESIDUAL_ROUNDINGS * noise + self.blur.min((2.0 * TANGENT_ROUNDINGS * noise).sqrt())
     }
 
-    /// How far the boundary reaches into a disk, if by more than the wish: without one, all sites that
-    /// the disk touches would be looked at, and in a polygon that is nearly round these are all.
-    fn intrusion(&self, disk: &UnitDisk, wish: f64) -> f64 {
-        let limit = (disk.radius - wish).max(0.0);
-        (disk.radius - self.unit_distance(disk.center, limit)).abs()
+    /// How far the boundary reaches into disks at most, as far as the wish cares, and their centers. In a
+    /// polygon that is nearly round all disks touch nearly all sites: only intrusions of more than half
+    /// of the wish are looked for, and disks within the other half of one without have none.
+    fn look(&self, disks: &[UnitDisk], wish: f64) -> impl Iterator<Item = (f64, Point)> {
+        let mut last: Option<(&UnitDisk, f64)> = None;
+        disks.iter().map(move |disk| {
+            let beside = last.map_or(f64::INFINITY, |(near, intrusion)| {
+                disk.center.distance(near.center) + (disk.radius - near.radius) + intrusion
+            });
+            if beside < wish {
+                return (beside, disk.center);
+            }
+            let limit = (disk.radius - 0.5 * wish).max(0.0);
+            let intrusion = (disk.radius - self.unit_distance(disk.center, limit)).abs();
+            last = Some((disk, intrusion));
+            (intrusion, disk.center)
+        })
     }
 
     /// Distance of a place to the boundary, in the unit frame, if it is at most about `limit`.
