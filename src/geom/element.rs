@@ -103,9 +103,8 @@ impl Element {
 
     /// Length along the curve.
     pub fn length(&self) -> f64 {
-        let half = 0.5 * self.sweep();
-        let chord = self.chord().length();
-        if half == 0.0 { chord } else { chord * half / half.sin() }
+        let (b, chord) = (self.bulge, self.chord().length());
+        if b == 0.0 { chord } else { chord * (b.atan() / b) * (1.0 + b * b) }
     }
 
     /// Place at parameter `t` in 0..=1, proportional to length.

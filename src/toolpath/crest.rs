@@ -20,6 +20,7 @@ use super::tour::round_tour;
 use super::trim::{End, Standing};
 use crate::geom::{Element, Point};
 use crate::offset::Level;
+use rayon::prelude::*;
 use rstar::RTree;
 use std::collections::HashMap;
 
@@ -57,10 +58,10 @@ pub(super) struct Reach<'a> {
 }
 
 /// A part of an edge within one band of radii.
-struct Part {
-    level: usize,
-    edge: u32,
-    t: [f64; 2],
+pub(super) struct Part {
+    pub level: usize,
+    pub edge: u32,
+    pub t: [f64; 2],
     ends: [End; 2],
 }
 
@@ -140,13 +141,9 @@ impl Crest {
 
 impl Reach<'_> {
     /// The parts of edges between each level and the next, beside which that level has no neighbor
-    /// inside: the level, the edge, and the parameters where they begin and end. Where an edge leads all
-    /// the way to the next level, a whole step, it is left out if `is_plain` says so.
-    pub fn between_levels(
-        &self,
-        roads: &Roads,
-        is_plain: impl Fn(u32, f64) -> bool,
-    ) -> Vec<(usize, u32, [f64; 2])> {
+    /// inside. Where an edge leads all the way to the next level, a whole step, it is left out if
+    /// `is_plain` says so.
+    pub fn between_levels(&self, roads: &Roads, is_plain: impl Fn(u32, f64) -> bool + Sync) -> Vec<Part> {
         let whole = Reach { tool_radius: 0.0, ..*self };
         let parts = |edge| {
             let radii = roads.radii(edge);
@@ -158,11 +155,11 @@ impl Reach<'_> {
             let levels = whole.levels_along(roads, edge).filter(is_told);
             levels.filter_map(|k| whole.part(roads, edge, k)).collect::<Vec<_>>()
         };
-        (0..roads.edge_count()).flat_map(parts).map(|part| (part.level, part.edge, part.t)).collect()
+        (0..roads.edge_count()).into_par_iter().flat_map_iter(parts).collect()
     }
 
     /// The level inside of level `k`; beyond everything for the last.
-    fn top(&self, k: usize) -> f64 {
+    pub fn top(&self, k: usize) -> f64 {
         self.levels.get(k + 1).map_or(f64::INFINITY, |l| l.distance)
     }
 
@@ -172,7 +169,7 @@ impl Reach<'_> {
     }
 
     /// The levels at most as far from the wall as a radius: the first one whose band may reach it.
-    fn first_level(&self, radius: f64) -> usize {
+    pub fn first_level(&self, radius: f64) -> usize {
         self.levels.partition_point(|l| l.distance <= radius).saturating_sub(1)
     }
 

@@ -214,6 +214,9 @@ fn is_flat(arc: &Element) -> bool {
 fn half_circles(e: &Element) -> usize {
     /// Round-off of `4 atan(bulge) / pi` at a bulge of 1.
     const QUOTIENT_ERROR: f64 = 4.0 * f64::EPSILON;
+    if e.bulge.abs() <= 1.0 {
+        return 1;
+    }
     (e.sweep().abs() / PI * (1.0 - QUOTIENT_ERROR)).ceil().max(1.0) as usize
 }
 

@@ -19,11 +19,13 @@
 //! and where it is more than the step the feed may be less (`pace`).
 
 mod approach;
+mod ascent;
 mod course;
 mod crest;
 mod cutter;
 mod detour;
 mod entry;
+mod foot;
 mod indexed;
 mod job;
 mod lead;

@@ -58,7 +58,8 @@ impl Point3 {
 
     /// Distance to another place.
     pub fn distance(self, other: Point3) -> f64 {
-        (self.xy() - other.xy()).length().hypot(self.z - other.z)
+        let [x, y, z] = [self.x - other.x, self.y - other.y, self.z - other.z];
+        (x * x + y * y + z * z).sqrt()
     }
 }
 

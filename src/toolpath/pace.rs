@@ -23,6 +23,11 @@ impl Pace {
         Pace { slow: vec![[0.0, f64::INFINITY]] }
     }
 
+    /// Whether nothing is slow.
+    pub fn is_even(&self) -> bool {
+        self.slow.is_empty()
+    }
+
     /// Slow on stretches of a course, and `before` them by that length.
     pub fn new(course: &Course, stretches: &[Element], before: f64, slack: f64) -> Pace {
         let mut starts = vec![0.0];

@@ -176,23 +176,24 @@ impl Job {
         levels: &[Vec<Level>],
     ) -> Result<(), Error> {
         let order = self.order(mats, pockets);
-        for &i in &order {
-            pockets[i].most_retracts = self.most_retracts(&mats[i], &levels[i]);
-            pockets[i].unreachable = rest(&Roads::new(&mats[i]), self.wall_distance(), self.overlap());
-        }
         let clear = |mat| move |link: &Element, radius: f64| Mat::is_clear(mat, link, radius);
         let is_clear: Vec<_> = mats.iter().map(clear).collect();
-        let ready = |planner: &Planner, i: usize| planner.prepare(&levels[i], &is_clear[i], Some(&mats[i]));
+        let ready = |planner: &Planner, own: &mut PocketPath, i: usize| {
+            let roads = Roads::new(&mats[i]);
+            own.most_retracts = self.most_retracts(&mats[i], &levels[i]);
+            own.unreachable = rest(&roads, self.wall_distance(), self.overlap());
+            planner.prepare(&levels[i], &is_clear[i], Some(roads))
+        };
         let heights = self.heights().len();
         if self.order == Order::Pocket {
             for i in order {
-                let mut pocket = ready(planner, i);
+                let mut pocket = ready(planner, &mut pockets[i], i);
                 pockets[i].cut(planner, &mut pocket, 0..heights)?;
             }
             return Ok(());
         }
         let mut prepared: Vec<(usize, Prepared)> =
-            order.into_iter().map(|i| (i, ready(planner, i))).collect();
+            order.into_iter().map(|i| (i, ready(planner, &mut pockets[i], i))).collect();
         for height in 0..heights {
             for (i, pocket) in &mut prepared {
                 pockets[*i].cut(planner, pocket, height..height + 1)?;

@@ -19,7 +19,6 @@ use super::width::Widths;
 use super::{Direction, Job, Start, Warning};
 use crate::error::Error;
 use crate::geom::{ArcSpline, Bounds, Element, Point};
-use crate::mat::Mat;
 use crate::offset::Level;
 use rstar::RTree;
 use std::ops::Range;
@@ -131,7 +130,7 @@ impl<'a> Planner<'a> {
         &self,
         levels: &'g [Level],
         is_clear: &'g IsClear<'g>,
-        mat: Option<&'g Mat>,
+        roads: Option<Roads<'g>>,
     ) -> Prepared<'g> {
         let bounds = levels
             .iter()
@@ -143,8 +142,7 @@ impl<'a> Planner<'a> {
         let order = nest.order(self.job.start);
         let (done, begin) = (vec![false; order.len()], vec![None; order.len()]);
         let last = self.last_passes(levels, &nest);
-        let roads = mat.map(Roads::new);
-        let detours = mat.map(|_| Detours::new(levels, slack));
+        let detours = roads.as_ref().map(|_| Detours::new(levels, slack));
         let crests = roads.as_ref().map_or(Vec::new(), |roads| self.crests(roads, levels, &nest, slack));
         let crests_of = vec![Vec::new(); order.len()];
         let mut ground = Ground {

@@ -5,22 +5,18 @@
 //! that wall end on it.
 
 use crate::geom::{Element, Point, Vector, vector};
-use crate::mat::{AxisEdge, Mat, NONE};
+use crate::mat::{AxisEdge, Mat, NONE, falling_root};
 use crate::offset::parallel_bulge;
 
 /// Halvings that find a place on an edge: all digits of a parameter in 0..=1.
 const HALVINGS: usize = 52;
-
-/// Round-off of a place on the axis, relative to the coordinates: vertices are solved to about this
-/// accuracy.
-const PLACE_ERROR: f64 = 16384.0 * f64::EPSILON;
 
 /// A stretch of a conic is halved this often at most; each time it is about four times flatter.
 const MAX_DEPTH: u32 = 12;
 
 /// The axis of a pocket, made ready for search.
 pub(super) struct Roads<'a> {
-    mat: &'a Mat,
+    pub(super) mat: &'a Mat,
     edges: Vec<AxisEdge>,
     /// Center and radius of each vertex.
     pub vertices: Vec<(Point, f64)>,
@@ -28,7 +24,7 @@ pub(super) struct Roads<'a> {
     first: Vec<u32>,
     incident: Vec<u32>,
     /// Pieces of the boundary along each site in turn.
-    by_site: Vec<(u32, f64, u32)>,
+    pub(super) by_site: Vec<(u32, f64, u32)>,
 }
 
 /// A place on an edge.
@@ -114,8 +110,15 @@ impl<'a> Roads<'a> {
     /// Where on an edge the radius is `r`; the nearer end if it is nowhere.
     pub fn spot_of_radius(&self, edge: u32, r: f64) -> Spot {
         let [r0, r1] = self.radii(edge);
-        let rises = r1 > r0;
-        let t = bisect(|t| (self.distance(edge, 0, self.place(Spot { edge, t })) < r) == rises);
+        let sign = if r1 > r0 { 1.0 } else { -1.0 };
+        let (site, frame) = (self.site(edge, 0), &self.mat.frame);
+        let r = frame.length_in(r);
+        let above = |t: f64| sign * (r - site.carrier_distance(frame.enter(self.place(Spot { edge, t }))).0);
+        let t = match above {
+            above if above(1.0) >= 0.0 => 1.0,
+            above if above(0.0) <= 0.0 => 0.0,
+            above => falling_root(0.0, 1.0, above),
+        };
         Spot { edge, t }
     }
 
@@ -166,7 +169,7 @@ impl<'a> Roads<'a> {
         })
     }
 
-    fn distance(&self, edge: u32, side: usize, p: Point) -> f64 {
+    pub(super) fn distance(&self, edge: u32, side: usize, p: Point) -> f64 {
         let (s, _) = self.site(edge, side).carrier_distance(self.mat.frame.enter(p));
         self.mat.frame.length_out(s)
     }
@@ -174,83 +177,6 @@ impl<'a> Roads<'a> {
     fn site(&self, edge: u32, side: usize) -> &crate::mat::Site {
         let piece = self.mat.graph.edges[edge as usize].pieces[side];
         &self.mat.sites[self.mat.graph.pieces[piece as usize].piece.site as usize]
-    }
-
-    /// Where the spoke of a place meets the axis, and on which side of that edge the place lies.
-    /// `None` where round-off hides it.
-    pub fn foot(&self, p: Point) -> Option<(Spot, usize)> {
-        let c = self.mat.frame.enter(p);
-        let site = self.mat.nearest_site(c);
-        let s = &self.mat.sites[site as usize];
-        // At a joint neighbors are as near, and a corner may be more than one site.
-        let around = [site, s.prev, s.next];
-        let sites = &self.mat.sites;
-        let farther = [sites[s.prev as usize].prev, sites[s.next as usize].next];
-        let near = around.into_iter().chain(farther);
-        let mut feet = near.flat_map(|site| self.feet_beside(site, p)).peekable();
-        // At a seam of the boundary there may be pieces without length that lead elsewhere; at the end of
-        // the axis every direction is that of a spoke.
-        let first = feet.peek().copied();
-        feet.find(|&(spot, side)| self.is_foot(spot, side, p)).or(first)
-    }
-
-    /// Whether the spoke that ends in a spot passes through a place.
-    fn is_foot(&self, spot: Spot, side: usize, p: Point) -> bool {
-        let d = self.distance(spot.edge, side, p);
-        let through = self.on_spoke(spot.edge, side, self.place(spot), d);
-        through.distance(p) <= PLACE_ERROR * p.x.abs().max(p.y.abs())
-    }
-
-    /// The same for places whose foot is on this site.
-    fn feet_beside(&self, site: u32, p: Point) -> Vec<(Spot, usize)> {
-        let s = &self.mat.sites[site as usize];
-        let c = self.mat.frame.enter(p);
-        let (distance, normal) = s.carrier_distance(c);
-        let position = s.position(&crate::mat::Foot { point: c - normal * distance, normal });
-        let after = self.by_site.partition_point(|&(of, at, _)| (of, at) <= (site, position));
-        let range = after.saturating_sub(2)..(after + 1).min(self.by_site.len());
-        let near = self.by_site[range].iter().filter(|(of, ..)| *of == site);
-        near.filter_map(|&(_, _, piece)| self.meet(piece, p, normal)).collect()
-    }
-
-    /// Where the ray from a place along a normal meets the edge of a piece.
-    fn meet(&self, piece: u32, p: Point, normal: Vector) -> Option<(Spot, usize)> {
-        let edge = self.mat.graph.pieces[piece as usize].edge;
-        if edge == NONE {
-            return self.leaf_of(piece);
-        }
-        let aside = |t: f64| (self.place(Spot { edge, t }) - p).cross(normal);
-        let (start, end) = (aside(0.0), aside(1.0));
-        // At a joint the sign is round-off, or there is none; the ray behind the place does not count.
-        let slack = PLACE_ERROR * p.x.abs().max(p.y.abs());
-        let is_ahead = |t: f64| (self.place(Spot { edge, t }) - p).dot(normal) >= -slack;
-        let joint = [(0.0, start), (1.0, end)].into_iter().find(|&(t, a)| a.abs() <= slack && is_ahead(t));
-        let t = match joint {
-            Some((t, _)) => t,
-            None if start * end < 0.0 => bisect(|t| (aside(t) < 0.0) == (start < 0.0)),
-            None => return None,
-        };
-        if !is_ahead(t) {
-            return None;
-        }
-        let side = usize::from(self.mat.graph.edges[edge as usize].pieces[1] == piece);
-        Some((Spot { edge, t }, side))
-    }
-
-    /// The end of the axis round which a piece is a contact arc.
-    fn leaf_of(&self, piece: u32) -> Option<(Spot, usize)> {
-        let pieces = &self.mat.graph.pieces;
-        let mut at = pieces[piece as usize].next;
-        while at != piece && at != NONE && pieces[at as usize].edge == NONE {
-            at = pieces[at as usize].next;
-        }
-        let edge = pieces.get(at as usize).map_or(NONE, |p| p.edge);
-        if edge == NONE {
-            return None;
-        }
-        // The piece starts in the disk of the leaf: the first one runs with the edge, the other against.
-        let side = usize::from(self.mat.graph.edges[edge as usize].pieces[1] == at);
-        Some((Spot { edge, t: side as f64 }, side))
     }
 
     /// A stretch of an edge as elements that leave it by `flat` at most: an arc or a segment where the
@@ -328,66 +254,19 @@ pub(super) fn bisect(holds: impl Fn(f64) -> bool) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::geom::{ArcSpline, point};
     use crate::{Pocket, Tolerance};
 
     /// A plate with a round island: axis edges straight and curved, spokes of every kind.
-    fn plate() -> Mat {
+    pub(in super::super) fn plate() -> Mat {
         let outer =
             [(0.0, 0.0, 0.0), (60.0, 0.0, 0.0), (60.0, 40.0, 0.0), (30.0, 40.0, 0.4), (0.0, 40.0, 0.0)];
         let notch = ArcSpline::closed([(10.0, 10.0, 0.0), (10.0, 15.0, 0.0), (15.0, 10.0, 0.0)]);
         let boss = ArcSpline::circle(point(38.0, 20.0), 8.0).reversed();
         let loops = vec![ArcSpline::closed(outer), notch, boss];
         Pocket::from_loops(loops, Tolerance::MM).unwrap().medial_axis().unwrap()
-    }
-
-    #[test]
-    fn a_spoke_ends_on_the_axis_at_the_distance_of_its_radius() {
-        let mat = plate();
-        let roads = Roads::new(&mat);
-        let mut found = 0;
-        for i in 0..60 {
-            for j in 0..40 {
-                let p = point(f64::from(i) + 0.37, f64::from(j) + 0.59);
-                let d = mat.distance(p);
-                // Inside of an island the distance is one to the wall as well.
-                let Some((spot, side)) = roads.foot(p).filter(|_| d > 0.1) else { continue };
-                let (center, r) = (roads.place(spot), roads.radius(spot));
-                if r < d || !mat.is_clear(&crate::Element::segment(p, center), d) {
-                    continue;
-                }
-                assert!((center.distance(p) - (r - d)).abs() < 1e-9, "{p} {center}");
-                assert!(roads.on_spoke(spot.edge, side, center, d).distance(p) < 1e-9);
-                assert!((mat.distance(center) - r).abs() < 1e-9);
-                found += 1;
-            }
-        }
-        assert!(found > 1800, "{found}");
-    }
-
-    #[test]
-    fn the_spoke_of_a_joint_ends_at_the_joint() {
-        // Joints of the axis at 8.5 from the center, on the spokes of the ends of the arcs drawn.
-        let outer = ArcSpline::closed([
-            (24.0, 37.0, 0.414_213_562_373_095_1),
-            (12.0, 25.0, 1.0),
-            (36.0, 25.0, 0.414_213_562_373_095_1),
-        ]);
-        let hole = ArcSpline::circle(point(24.0, 25.0), 5.0).reversed();
-        let mat = Pocket::from_loops(vec![outer, hole], Tolerance::MM).unwrap().medial_axis().unwrap();
-        let roads = Roads::new(&mat);
-        for (x, y) in [(0.0, 1.0), (-1.0, 0.0), (1.0, 0.0), (0.0, -1.0)] {
-            for d in [3.0, 3.25] {
-                let at = |r: f64| point(24.0 + r * x, 25.0 + r * y);
-                for p in [at(12.0 - d), at(5.0 + d)] {
-                    let (spot, _) = roads.foot(p).unwrap();
-                    let place = roads.place(spot);
-                    assert!(place.distance(at(8.5)) < 1e-9, "{p}: {place} {spot:?} {:?}", roads.vertices);
-                }
-            }
-        }
     }
 
     #[test]

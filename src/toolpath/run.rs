@@ -41,13 +41,17 @@ impl Planner<'_> {
             if gone < 1.0 {
                 self.cut_paced((&pace, start), e, [gone, 1.0], ground.slack);
             }
-            start += e.length();
+            start += if pace.is_even() { 0.0 } else { e.length() };
         }
         Ok(())
     }
 
     /// Cuts a part of an element that starts at this length along its course.
     fn cut_paced(&mut self, (pace, start): (&Pace, f64), e: &Element, [from, to]: [f64; 2], slack: f64) {
+        if pace.is_even() {
+            self.cutter.cut(&if [from, to] == [0.0, 1.0] { *e } else { e.part(from, to) });
+            return;
+        }
         let length = e.length();
         let ends = [start + from * length, start + to * length];
         // The ends stay as they are, to the last bit.

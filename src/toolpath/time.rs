@@ -33,7 +33,7 @@ pub(super) fn minutes(from: Option<Point3>, moves: &[Move], job: &Job) -> f64 {
         let to = m.to();
         let from = at.replace(to).unwrap_or(to);
         let leg = leg(from, m, acceleration);
-        let goes_on = |last: &Leg, next: &Leg| angle(last.ends[1], next.ends[0]) <= CORNER;
+        let goes_on = |last: &Leg, next: &Leg| turns_by(last.ends[1], next.ends[0]) <= CORNER;
         if leg.as_ref().is_none_or(|next| run.last().is_some_and(|last| !goes_on(last, next))) {
             total += of_run(&run, acceleration);
             run.clear();
@@ -82,10 +82,10 @@ fn leg(from: Point3, m: &Move, acceleration: f64) -> Option<Leg> {
     }
 }
 
-/// Angle between unit vectors; 0 where one is none.
-fn angle(a: [f64; 3], b: [f64; 3]) -> f64 {
+/// How far unit vectors lie apart, for small angles the angle; 0 where one is none.
+fn turns_by(a: [f64; 3], b: [f64; 3]) -> f64 {
     let apart: f64 = (0..3).map(|i| (a[i] - b[i]) * (a[i] - b[i])).sum();
-    if apart.is_nan() { 0.0 } else { 2.0 * (0.5 * apart.sqrt()).min(1.0).asin() }
+    if apart.is_nan() { 0.0 } else { apart.sqrt() }
 }
 
 #[cfg(test)]

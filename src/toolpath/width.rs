@@ -10,9 +10,11 @@
 //! a step away. Where the axis ends the spoke before, between `d` and the next level `e`, the neighbor
 //! is the pass on the other side of the axis: parts of the axis with `d < r < e`, and the offsets on
 //! both sides of them. Of the two sides the one that is cut first has no neighbor; it is cut as wide
-//! as the tool where the next level is farther than the diameter.
+//! as the tool where the next level is farther than the diameter; it is not looked for where the way up
+//! the spoke and on along the axis is shorter (`ascent`).
 
-use super::crest::Reach;
+use super::ascent::Ascents;
+use super::crest::{Part, Reach};
 use super::indexed::Indexed;
 use super::nest::index;
 use super::roads::{Roads, Spot};
@@ -61,13 +63,23 @@ impl Widths {
             }
         }
         let parts = widths.parts(job, roads, reach);
-        let trees = trees(reach, &parts);
-        let of_part = |&(level, edge, t): &(usize, u32, [f64; 2])| {
-            let beside = Beside { job, roads, reach, trees: &trees, rank, level, edge };
-            beside.tell(t)
+        let ascents = Ascents::new(roads, reach);
+        let is_wide = |part: &Part| {
+            let d = reach.levels[part.level].distance;
+            let lowest = roads.radii(part.edge).into_iter().fold(f64::INFINITY, f64::min).max(d);
+            // Higher up the spoke is longer, but what is left of the way is shorter by more.
+            lowest - d + ascents.of(part) > job.tool
         };
-        let told: Vec<Told> = parts.par_iter().map(of_part).collect();
+        let is_wide: Vec<bool> = parts.par_iter().map(is_wide).collect();
         let is_paced = job.slow < 1.0;
+        let asked = parts.iter().zip(&is_wide).filter(|(_, is_wide)| **is_wide || is_paced);
+        let trees = trees(reach, asked.map(|(part, _)| part.level));
+        let of_part = |(part, &is_wide): (&Part, &bool)| {
+            let &Part { level, edge, t, .. } = part;
+            let beside = Beside { job, roads, reach, trees: &trees, rank, level, edge };
+            beside.tell(t, is_wide)
+        };
+        let told: Vec<Told> = parts.par_iter().zip(&is_wide).map(of_part).collect();
         if is_paced {
             widths.fresh = vec![Some(Vec::new()); rank.len()];
         }
@@ -90,8 +102,9 @@ impl Widths {
 
     /// The parts of edges that may tell something. Many may lead across many levels, each from corner
     /// to center of a polygon: where the spokes on both sides are nearly one, nothing is wide.
-    fn parts(&self, job: &Job, roads: &Roads, reach: &Reach) -> Vec<(usize, u32, [f64; 2])> {
-        let openings: Vec<f64> = (0..roads.edge_count()).map(|edge| roads.opening(edge)).collect();
+    fn parts(&self, job: &Job, roads: &Roads, reach: &Reach) -> Vec<Part> {
+        let edges = (0..roads.edge_count()).into_par_iter();
+        let openings: Vec<f64> = edges.map(|edge| roads.opening(edge)).collect();
         let is_plain = |edge: u32, step: f64| {
             let opening = openings[edge as usize];
             let steep = (1.0 - 0.25 * opening * opening).max(0.0).sqrt();
@@ -123,10 +136,10 @@ impl Widths {
     }
 }
 
-/// The levels that parts of edges lie beside, and those inside of them, made ready for search.
-fn trees(reach: &Reach, parts: &[(usize, u32, [f64; 2])]) -> Vec<RTree<Indexed>> {
+/// The levels that are asked for, and those inside of them, made ready for search.
+fn trees(reach: &Reach, asked: impl Iterator<Item = usize>) -> Vec<RTree<Indexed>> {
     let mut is_asked = vec![false; reach.levels.len() + 1];
-    for &(level, ..) in parts {
+    for level in asked {
         is_asked[level..level + 2].fill(true);
     }
     let tree = |(level, is_asked): (_, &bool)| if *is_asked { index(level) } else { RTree::new() };
@@ -145,9 +158,10 @@ struct Beside<'a> {
 }
 
 impl Beside<'_> {
-    fn tell(&self, t: [f64; 2]) -> Told {
+    fn tell(&self, t: [f64; 2], is_wide: bool) -> Told {
         let (apart, at) = self.apart(t);
-        Told { apart, at, full: self.full_width(t), fresh: self.fresh(t) }
+        let full = if is_wide { self.full_width(t) } else { None };
+        Told { apart, at, full, fresh: self.fresh(t) }
     }
 
     /// How far the passes on both sides lie apart at most, or from a crest between them.
