@@ -145,7 +145,7 @@ fn doors_outward(level: &Level, outside: &Level, first: usize, slack: f64) -> Ve
             let mut doors: Vec<Door> = Vec::new();
             let mut meet = |at: Point, length: f64| {
                 if only {
-                    doors.push(Door { pass: first, at, length });
+                    widen(&mut doors, Door { pass: first, at, length });
                     return;
                 }
                 let mut nearest = f64::INFINITY;
@@ -155,7 +155,7 @@ fn doors_outward(level: &Level, outside: &Level, first: usize, slack: f64) -> Ve
                     if distance > nearest + slack {
                         break;
                     }
-                    doors.push(Door { pass: first + found.index, at, length });
+                    widen(&mut doors, Door { pass: first + found.index, at, length });
                 }
             };
             for e in spline.elements() {
@@ -167,6 +167,15 @@ fn doors_outward(level: &Level, outside: &Level, first: usize, slack: f64) -> Ve
             widest(doors)
         })
         .collect()
+}
+
+/// Adds a door, unless it leads where the last one does: of these two the longer stays.
+fn widen(doors: &mut Vec<Door>, door: Door) {
+    match doors.last_mut().filter(|last| last.pass == door.pass) {
+        Some(last) if last.length < door.length => *last = door,
+        Some(_) => {}
+        None => doors.push(door),
+    }
 }
 
 /// One door for each pass: that on the longest stretch.

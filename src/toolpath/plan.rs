@@ -252,6 +252,7 @@ impl<'a> Planner<'a> {
     }
 
     fn passes(&mut self, ground: &mut Ground, order: &[usize], height: Height) -> Result<(), Error> {
+        self.cutter.moves.reserve(order.iter().map(|&pass| ground.spline(pass).len()).sum());
         for (i, &pass) in order.iter().enumerate() {
             self.pass(ground, pass, &order[i + 1..], height)?;
         }

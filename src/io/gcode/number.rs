@@ -43,12 +43,20 @@ impl Grid {
         Ok([self.round("x", p.x)?, self.round("y", p.y)?])
     }
 
-    /// The digits, with all decimals and without a sign on zero.
-    pub fn text(&self, steps: i64) -> String {
-        let sign = if steps < 0 { "-" } else { "" };
-        let (size, unit) = (steps.unsigned_abs(), 10u64.pow(self.decimals));
-        let width = self.decimals as usize;
-        format!("{sign}{}.{:0width$}", size / unit, size % unit)
+    /// Appends the digits, with all decimals and without a sign on zero.
+    pub fn push(&self, text: &mut String, steps: i64) {
+        const ZEROS: &str = "0000000000";
+        let mut digits = itoa::Buffer::new();
+        let digits = digits.format(steps.unsigned_abs());
+        if steps < 0 {
+            text.push('-');
+        }
+        let decimals = self.decimals as usize;
+        let (whole, part) = digits.split_at(digits.len().saturating_sub(decimals));
+        text.push_str(if whole.is_empty() { "0" } else { whole });
+        text.push('.');
+        text.push_str(&ZEROS[..decimals - part.len()]);
+        text.push_str(part);
     }
 }
 
@@ -65,7 +73,11 @@ mod tests {
     #[test]
     fn zero_has_no_sign_and_small_numbers_no_exponent() {
         let grid = Grid::new(4);
-        let text = |v| grid.text(grid.round("x", v).unwrap());
+        let text = |v| {
+            let mut text = String::new();
+            grid.push(&mut text, grid.round("x", v).unwrap());
+            text
+        };
         assert_eq!(text(-0.00001), "0.0000");
         assert_eq!(text(-0.00006), "-0.0001");
         assert_eq!(text(1e-300), "0.0000");

@@ -20,6 +20,9 @@ const NUMBER_STEP: usize = 10;
 /// LinuxCNC and Fanuc read five digits.
 const LAST_NUMBER: usize = 99_990;
 
+/// About how many bytes a line takes.
+const USUAL_LINE: usize = 24;
+
 /// A program as text.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Written {
@@ -58,6 +61,7 @@ pub struct Stats {
 pub fn write(moves: &[Move], setup: &Setup) -> Result<Written, Error> {
     setup.check()?;
     let mut writer = Writer::new(setup);
+    writer.out.text.reserve(moves.len() * USUAL_LINE);
     writer.header()?;
     for m in moves {
         match *m {
@@ -81,13 +85,16 @@ struct Writer<'a> {
     exact: Option<Point3>,
     xy: Option<[i64; 2]>,
     z: Option<i64>,
-    rate: Option<String>,
+    rate: Option<(f64, String)>,
+    /// Room for the words of a line.
+    words: String,
 }
 
 impl<'a> Writer<'a> {
     fn new(setup: &'a Setup) -> Writer<'a> {
         let grid = Grid::new(setup.decimals);
-        Writer { setup, grid, out: Written::default(), exact: None, xy: None, z: None, rate: None }
+        let (exact, xy, z, rate) = (None, None, None, None);
+        Writer { setup, grid, out: Written::default(), exact, xy, z, rate, words: String::new() }
     }
 
     fn header(&mut self) -> Result<(), Error> {
@@ -132,9 +139,10 @@ impl<'a> Writer<'a> {
         if self.z.is_none_or(|now| z > now) {
             self.rapid_z(z)?;
         }
-        let words = self.plane_words(xy);
-        if !words.is_empty() {
-            self.line(&format!("G0{words}"))?;
+        if self.xy != Some(xy) {
+            let mut words = self.begin("G0");
+            self.plane_words(&mut words, xy);
+            self.end(words)?;
             self.out.stats.rapids += 1;
             self.xy = Some(xy);
         }
@@ -142,13 +150,14 @@ impl<'a> Writer<'a> {
     }
 
     fn rapid_z(&mut self, z: i64) -> Result<(), Error> {
-        let word = self.z_word(z);
-        if word.is_empty() {
+        if self.z == Some(z) {
             return Ok(());
         }
+        let mut words = self.begin("G0");
+        self.z_word(&mut words, z);
         self.z = Some(z);
         self.out.stats.rapids += 1;
-        self.line(&format!("G0{word}"))
+        self.end(words)
     }
 
     fn feed(&mut self, to: Point3, rate: f64) -> Result<(), Error> {
@@ -161,14 +170,16 @@ impl<'a> Writer<'a> {
 
     /// A straight feed between rounded places.
     fn straight(&mut self, xy: [i64; 2], z: i64, rate: f64) -> Result<(), Error> {
-        let words = self.plane_words(xy) + &self.z_word(z);
-        if words.is_empty() {
+        if (self.xy, self.z) == (Some(xy), Some(z)) {
             self.out.stats.dropped_lines += 1;
             return Ok(());
         }
+        let mut words = self.begin("G1");
+        self.plane_words(&mut words, xy);
+        self.z_word(&mut words, z);
         (self.xy, self.z) = (Some(xy), Some(z));
         self.out.stats.lines += 1;
-        self.cut(&format!("G1{words}"), rate)
+        self.cut(words, rate)
     }
 
     fn arc(&mut self, to: Point3, center: Point, ccw: bool, rate: f64) -> Result<(), Error> {
@@ -177,8 +188,9 @@ impl<'a> Writer<'a> {
         self.grid.round_point(to.xy())?;
         self.grid.round("z", to.z)?;
         let drawn = drawn_arc(from.xy(), to.xy(), center, ccw);
-        let mut parts = vec![(drawn, from.z, to.z)];
-        while let Some((part, z0, z1)) = parts.pop() {
+        let (mut next, mut parts) = (Some((drawn, from.z, to.z)), Vec::new());
+        while let Some((part, z0, z1)) = next.or_else(|| parts.pop()) {
+            next = None;
             let (start, end) = (self.xy.unwrap_or_default(), self.grid.round_point(part.end)?);
             let fit = self.fit(&part, start, end);
             let z = self.grid.round("z", z1)?;
@@ -186,12 +198,9 @@ impl<'a> Writer<'a> {
                 Fit::Nothing => self.vanished(z, part == drawn, &part, rate)?,
                 Fit::Line => self.straight(end, z, rate)?,
                 Fit::Center([i, j]) => {
-                    let center = format!(" I{} J{}", self.grid.text(i), self.grid.text(j));
-                    self.curved(part.bulge > 0.0, end, z, &center, rate)?;
+                    self.curved(part.bulge > 0.0, end, z, &[(" I", i), (" J", j)], rate)?;
                 }
-                Fit::Radius(r) => {
-                    self.curved(part.bulge > 0.0, end, z, &format!(" R{}", self.grid.text(r)), rate)?;
-                }
+                Fit::Radius(r) => self.curved(part.bulge > 0.0, end, z, &[(" R", r)], rate)?,
                 Fit::Halves => {
                     let (a, b) = part.split(0.5);
                     let middle = 0.5 * (z0 + z1);
@@ -236,49 +245,80 @@ impl<'a> Writer<'a> {
     }
 
     /// An arc: X and Y are always written.
-    fn curved(&mut self, ccw: bool, xy: [i64; 2], z: i64, center: &str, rate: f64) -> Result<(), Error> {
-        let g = if ccw { "G3" } else { "G2" };
-        let (x, y) = (self.grid.text(xy[0]), self.grid.text(xy[1]));
-        let words = format!("{g} X{x} Y{y}{}{center}", self.z_word(z));
+    fn curved(
+        &mut self,
+        ccw: bool,
+        xy: [i64; 2],
+        z: i64,
+        center: &[(&str, i64)],
+        rate: f64,
+    ) -> Result<(), Error> {
+        let mut words = self.begin(if ccw { "G3" } else { "G2" });
+        self.word(&mut words, " X", xy[0]);
+        self.word(&mut words, " Y", xy[1]);
+        self.z_word(&mut words, z);
+        center.iter().for_each(|(letter, steps)| self.word(&mut words, letter, *steps));
         (self.xy, self.z) = (Some(xy), Some(z));
         self.out.stats.arcs += 1;
-        self.cut(&words, rate)
+        self.cut(words, rate)
     }
 
     /// A motion with its feed rate where that changes.
-    fn cut(&mut self, words: &str, rate: f64) -> Result<(), Error> {
+    fn cut(&mut self, words: String, rate: f64) -> Result<(), Error> {
+        if self.rate.as_ref().is_some_and(|(known, _)| *known == rate) {
+            return self.end(words);
+        }
         let text = short(rate);
         if !(rate > 0.0 && rate.is_finite()) || text == "0" {
             return Err(Error::Parameter { name: "feed", value: rate, range: "at least 0.001 per minute" });
         }
-        if self.rate.as_ref() == Some(&text) {
-            return self.line(words);
+        if self.rate.as_ref().is_some_and(|(_, known)| *known == text) {
+            return self.end(words);
         }
         let whole = format!("{words} F{text}");
         if whole.len() + self.number().len() > MAX_LINE {
             self.line(&format!("F{text}"))?;
-            self.line(words)?;
+            self.end(words)?;
         } else {
             self.line(&whole)?;
         }
-        self.rate = Some(text);
+        self.rate = Some((rate, text));
         Ok(())
     }
 
-    /// X and Y where they differ from where the tool is.
-    fn plane_words(&self, xy: [i64; 2]) -> String {
-        let mut words = String::new();
-        for (axis, letter) in [" X", " Y"].into_iter().enumerate() {
-            if self.xy.is_none_or(|now| now[axis] != xy[axis]) {
-                words += letter;
-                words += &self.grid.text(xy[axis]);
-            }
-        }
+    /// The words of a line that begins with this one.
+    fn begin(&mut self, word: &str) -> String {
+        let mut words = std::mem::take(&mut self.words);
+        words.clear();
+        words.push_str(word);
         words
     }
 
-    fn z_word(&self, z: i64) -> String {
-        if self.z == Some(z) { String::new() } else { format!(" Z{}", self.grid.text(z)) }
+    /// Writes a line that was begun.
+    fn end(&mut self, words: String) -> Result<(), Error> {
+        self.line(&words)?;
+        self.words = words;
+        Ok(())
+    }
+
+    fn word(&self, words: &mut String, letter: &str, steps: i64) {
+        words.push_str(letter);
+        self.grid.push(words, steps);
+    }
+
+    /// X and Y where they differ from where the tool is.
+    fn plane_words(&self, words: &mut String, xy: [i64; 2]) {
+        for (axis, letter) in [" X", " Y"].into_iter().enumerate() {
+            if self.xy.is_none_or(|now| now[axis] != xy[axis]) {
+                self.word(words, letter, xy[axis]);
+            }
+        }
+    }
+
+    fn z_word(&self, words: &mut String, z: i64) {
+        if self.z != Some(z) {
+            self.word(words, " Z", z);
+        }
     }
 
     /// The number of the next line, where lines have one.
