@@ -144,7 +144,7 @@ impl Ground<'_> {
         (shorter_than, flat): (f64, f64),
         slot: Option<usize>,
     ) -> Option<Way> {
-        let (nest, done, last) = (&self.nest, &self.done[..], self.last?);
+        let (nest, done, last) = (&self.nest, &self.done[..], self.last.as_ref()?.pass);
         let roads = self.roads.as_ref()?;
         self.detours.as_mut()?.find(roads, &Wish { nest, done, from, last, to, shorter_than, flat, slot })
     }

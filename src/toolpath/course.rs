@@ -2,6 +2,10 @@
 
 use crate::geom::{ArcSpline, Element, Point};
 
+/// Turn between two elements, in radians, from which on their joint counts as a corner: joints of arc
+/// splines turn by round-off, corners that are seen on a part by degrees.
+const CORNER: f64 = 0.01;
+
 /// Elements in order of travel; closed when the last ends where the first begins.
 #[derive(Clone, Debug)]
 pub(super) struct Course {
@@ -130,6 +134,11 @@ impl Course {
         parts.reverse();
         parts
     }
+}
+
+/// Whether there is a corner between an element and the next.
+pub(super) fn turns(a: &Element, b: &Element) -> bool {
+    a.tangents().1.angle_to(b.tangents().0).abs() > CORNER
 }
 
 #[cfg(test)]

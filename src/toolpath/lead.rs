@@ -11,16 +11,12 @@
 //! the pass there, and the disk that it bounds must keep off the wall. Where it does not, the widest
 //! smaller one does, down to the width of the finishing stock, as a smaller one would begin in stock.
 
-use super::course::{Course, Place};
+use super::course::{Course, Place, turns};
 use super::plan::{Ground, Height, Planner};
 use super::roads::bisect;
 use super::{Job, Warning};
 use crate::error::Error;
 use crate::geom::{Element, Point, Vector};
-
-/// Turn between two elements, in radians, from which on their joint counts as a corner: joints of arc
-/// splines turn by round-off, corners that are seen on a part by degrees.
-const CORNER: f64 = 0.01;
 
 /// A run is long from this share of the longest one on.
 const LONG: f64 = 0.5;
@@ -73,7 +69,7 @@ impl Planner<'_> {
         self.cut_link(&onto);
         self.run(ground, pass, &lead.begun)?;
         let off = lead.arc(false);
-        self.spring(lead.begun)?;
+        self.spring(&lead.begun)?;
         self.cut_link(&off);
         ground.done[pass] = true;
         ground.last = None;
@@ -200,7 +196,6 @@ struct Touching {
 /// The course begun at a corner of it, if there is one, and a place on each of its long smooth runs:
 /// nearest to `here`, and by `margin` away from corners where the run is that long.
 fn places(mut course: Course, here: Point, margin: f64) -> (Course, Vec<Place>) {
-    let turns = |a: &Element, b: &Element| a.tangents().1.angle_to(b.tangents().0).abs() > CORNER;
     let n = course.elements.len();
     let corner = (0..n).find(|&i| turns(&course.elements[(i + n - 1) % n], &course.elements[i]));
     course.elements.rotate_left(corner.unwrap_or(0));

@@ -29,6 +29,7 @@ mod foot;
 mod indexed;
 mod job;
 mod lead;
+mod link;
 mod moves;
 mod nest;
 mod pace;

@@ -13,6 +13,7 @@ use super::cutter::Cutter;
 use super::detour::Detours;
 use super::indexed::Indexed;
 use super::lead::ShortLeads;
+use super::link::Last;
 use super::nest::{Nest, Pass, index};
 use super::roads::Roads;
 use super::width::Widths;
@@ -80,8 +81,7 @@ pub(super) struct Ground<'a> {
     pub crests_of: Vec<Vec<usize>>,
     /// Passes cut at the height at hand.
     pub done: Vec<bool>,
-    /// The pass in whose end the tool stands.
-    pub last: Option<usize>,
+    pub last: Option<Last>,
     /// What of each pass has no neighbor inside; `None` where that is all of it. Empty if not asked for.
     pub fresh: Vec<Option<Vec<Element>>>,
     /// Where each pass should begin, if that is known before.
@@ -276,21 +276,20 @@ impl<'a> Planner<'a> {
         };
         self.run(ground, pass, &course)?;
         if ground.nest.passes[pass].level == 0 && height.z == self.job.floor() {
-            self.spring(course)?;
+            self.spring(&course)?;
         }
         ground.done[pass] = true;
-        ground.last = Some(pass);
+        ground.last = Some(Last { pass, course });
         Ok(())
     }
 
     /// Once more along a wall, as often as asked: round, or back and forth.
-    pub fn spring(&mut self, mut course: Course) -> Result<(), Error> {
-        for _ in 0..self.job.spring {
+    pub fn spring(&mut self, course: &Course) -> Result<(), Error> {
+        let back = if course.closed { course.clone() } else { course.clone().turned() };
+        for i in 0..self.job.spring {
             self.afford(course.elements.len() as u64)?;
-            if !course.closed {
-                course = course.turned();
-            }
-            course.elements.iter().for_each(|e| self.cutter.cut(e));
+            let way = if i % 2 == 0 { &back } else { course };
+            way.elements.iter().for_each(|e| self.cutter.cut(e));
         }
         Ok(())
     }
@@ -309,35 +308,6 @@ impl<'a> Planner<'a> {
         let walls = if self.job.finish > 0.0 { 2 } else { 1 };
         let inward = self.job.start == Start::Outside && ground.nest.passes[pass].level >= walls;
         inward != (self.job.direction == Direction::Conventional)
-    }
-
-    /// Straight on from the end of the last pass, where that is a neighbor.
-    fn link(&mut self, ground: &Ground, pass: usize, course: &Course) -> Option<Course> {
-        let last = ground.last?;
-        let doors = ground.nest.inner[pass].iter().chain(&ground.nest.outer[pass]);
-        doors.into_iter().find(|d| d.pass == last)?;
-        let here = self.cutter.at()?;
-        [ground.begin[pass], Some(here)].into_iter().flatten().find_map(|place| {
-            let begun = course.clone().begun_at(course.nearest(place), ground.slack);
-            let link = Element::segment(here, begun.start);
-            self.may_link(ground, &link, pass, last).then(|| {
-                // Straight across into what the next pass is to cut.
-                self.amounts.full_width_length += link.length();
-                self.cut_link(&link);
-                begun
-            })
-        })
-    }
-
-    /// Along a link, which is counted.
-    pub fn cut_link(&mut self, link: &Element) {
-        self.amounts.link_length += link.length();
-        self.cutter.cut(link);
-    }
-
-    pub fn may_link(&self, ground: &Ground, link: &Element, a: usize, b: usize) -> bool {
-        link.length() <= ground.apart(a, b) + ground.slack
-            && (ground.is_clear)(link, self.job.wall_distance())
     }
 }
 
@@ -390,8 +360,12 @@ impl Ground<'_> {
 
     /// Difference of the distances of two passes from the wall.
     pub fn apart(&self, a: usize, b: usize) -> f64 {
-        let distance = |pass: usize| self.levels[self.nest.passes[pass].level].distance;
-        (distance(a) - distance(b)).abs()
+        (self.distance(a) - self.distance(b)).abs()
+    }
+
+    /// Distance of a pass from the wall.
+    pub fn distance(&self, pass: usize) -> f64 {
+        self.levels[self.nest.passes[pass].level].distance
     }
 
     /// A place of the pass from which the next one lies straight across, if that is a neighbor.
