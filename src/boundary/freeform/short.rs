@@ -158,13 +158,13 @@ fn cubic(p: &Sextic) -> ([f64; 4], f64) {
     ([c0, c1, p2 + 2.0 * t2, p3 + 4.0 * t3], rest)
 }
 
-/// Places inside where a cubic is stationary; others are ends.
+/// Places inside where a cubic is stationary; others are the ends next to them, so that it does not
+/// matter which way the part is run.
 #[inline]
 fn stationary([_, c1, c2, c3]: &[f64; 4]) -> [f64; 2] {
     let root = (c2 * c2 - 3.0 * c1 * c3).max(0.0).sqrt();
     let q = -(c2 + root.copysign(*c2));
-    let inside = |z: f64| if z.abs() < 1.0 { z } else { 1.0 };
-    [inside(q / (3.0 * c3)), inside(c1 / q)]
+    [q / (3.0 * c3), c1 / q].map(|z| if z.is_nan() { 1.0 } else { z.clamp(-1.0, 1.0) })
 }
 
 /// Values of `n / d` at the ends and where it is stationary.
