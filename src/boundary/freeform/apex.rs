@@ -124,15 +124,14 @@ fn corrected(
             shape = Shape { reach: reach.map(|r| 0.5 * r), lift: 0.0 };
             continue;
         }
-        let factors = [0, 1].map(|i| {
+        let wanted = [0, 1].map(|i| {
             let balanced = 0.5 * (errors.sides[i] + errors.middle);
-            ((1.0 - 0.5 * WINDOW) / balanced).powf(0.25).clamp(0.5, 2.0).min(most[i] / reach[i])
+            let factor = ((1.0 - 0.5 * WINDOW) / balanced).powf(0.25).clamp(0.5, 2.0);
+            (reach[i] * factor).min(most[i])
         });
-        let both = 0.5 * (factors[0] + factors[1]);
-        shape = Shape {
-            reach: [0, 1].map(|i| reach[i] * factors[i]),
-            lift: (lift + errors.raised() * tolerance) * both * both * both * both,
-        };
+        let both = 0.5 * (wanted[0] / reach[0] + wanted[1] / reach[1]);
+        let lift = (lift + errors.raised() * tolerance) * both * both * both * both;
+        shape = Shape { reach: wanted, lift };
     }
     good
 }
