@@ -67,6 +67,9 @@ pub(super) fn wrong_places(cells: &[Cell], run: Run, noise: f64) -> Vec<f64> {
     if wrong.is_empty() && changes.max(1) != apices.len() + 1 {
         wrong.extend(apices);
     }
+    // What is seen behind the seam of a ring is where the ring begins.
+    let (end, turn) = (run.end(), run.end() - run.at(0));
+    wrong.iter_mut().filter(|u| **u > end).for_each(|u| *u -= turn);
     wrong
 }
 
