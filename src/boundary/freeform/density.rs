@@ -14,6 +14,9 @@ const PRECISION: f64 = 1.0 / 8_388_608.0;
 /// Halvings of a piece at most; a root of the density, like that at an apex, takes most of them.
 const MAX_HALVINGS: u32 = 24;
 
+/// With so many leaves already, none is halved: the density is noise.
+const MAX_LEAVES: usize = 1 << 16;
+
 /// Halvings of a piece at least, as five values may agree by chance.
 const LEAST_HALVINGS: u32 = 1;
 
@@ -88,7 +91,8 @@ impl Density {
         let coarse = width / 6.0 * (v0 + 4.0 * v2 + v4);
         let fine = width / 12.0 * (v0 + 4.0 * v1 + 2.0 * v2 + 4.0 * v3 + v4);
         let unsure = (fine - coarse).abs() > 15.0 * PRECISION;
-        if halvings < LEAST_HALVINGS || unsure && halvings < MAX_HALVINGS {
+        let halvable = halvings < MAX_HALVINGS && self.leaves.len() < MAX_LEAVES;
+        if halvings < LEAST_HALVINGS || unsure && halvable {
             self.halve(whole, (a, center), [v0, v1, v2], halvings + 1, at);
             self.halve(whole, (center, b), [v2, v3, v4], halvings + 1, at);
             return;

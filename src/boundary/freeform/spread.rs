@@ -109,9 +109,19 @@ impl Spread {
         }
     }
 
-    /// Appends biarcs from one end to the other; nothing is appended when it fails.
-    pub fn run(&mut self, track: &Track, ends: &Ends, goal: &Goal, out: &mut Vec<Cell>) -> Result<(), Lost> {
-        let total = self.fill(track, ends, goal).ok_or(Lost { ends: ends.apex_arcs })?;
+    /// How many biarcs it takes from one end to the other, about.
+    pub fn number(&mut self, track: &Track, ends: &Ends, goal: &Goal) -> Result<f64, Lost> {
+        self.fill(track, ends, goal).ok_or(Lost { ends: ends.apex_arcs })
+    }
+
+    /// Appends biarcs from one end to the other, of a known number about; nothing is appended when it fails.
+    pub fn run(
+        &mut self,
+        track: &Track,
+        ends: &Ends,
+        (goal, total): (&Goal, f64),
+        out: &mut Vec<Cell>,
+    ) -> Result<(), Lost> {
         let many = total > MANY;
         let (mut arcs, mut sweeps) = (first(total), 0);
         for _ in 0..MAX_LAYOUTS {
@@ -382,8 +392,9 @@ mod tests {
         let nodes = [track.cut_node(0.0, Side::After), track.cut_node(1.0, Side::Before)];
         let ends = Ends::of(nodes);
         let goal = Goal { tolerance: 1e-7, joint: Joint::MIDDLE, tilted: false, constant: 2.0 / 81.0 };
-        let mut cells = Vec::new();
-        Spread::default().run(&track, &ends, &goal, &mut cells).unwrap();
+        let (mut cells, mut spread) = (Vec::new(), Spread::default());
+        let total = spread.number(&track, &ends, &goal).unwrap();
+        spread.run(&track, &ends, (&goal, total), &mut cells).unwrap();
         assert!(cells.len() > 10);
         let errors: Vec<f64> = cells.iter().map(|c| c.distance.bound / goal.tolerance).collect();
         assert!(errors.iter().all(|&e| e <= 1.0 && e > 0.5), "{errors:?}");

@@ -104,6 +104,14 @@ impl<'a> Track<'a> {
         self.parts(from, to).fold(0.0, far)
     }
 
+    /// How far the curve between two parameters, which is straight, runs beyond the ends of a segment for
+    /// it, but for less than `small`.
+    pub fn overrun(&self, segment: &Arc, from: f64, to: f64, small: f64) -> f64 {
+        let along = (segment.end - segment.start).unit();
+        let ends = (segment.start.dot(along), segment.end.dot(along));
+        self.parts(from, to).map(|part| beyond(&part, along, ends, (small, MAX_HALVINGS))).fold(0.0, f64::max)
+    }
+
     /// Length of the diagonal of the box around all control points.
     pub fn extent(&self) -> f64 {
         self.extent
@@ -246,6 +254,23 @@ impl<'a> Track<'a> {
         }
         whole + t
     }
+}
+
+/// Halvings of a straight part that may run beyond the ends of its segment.
+const MAX_HALVINGS: u32 = 16;
+
+/// How far places of a part are beyond two others along a line: 0 where that is less than `small`.
+fn beyond(part: &Piece, along: Vector, ends: (f64, f64), (small, halvings): (f64, u32)) -> f64 {
+    let past = |p: &Vector| (ends.0 - p.dot(along)).max(p.dot(along) - ends.1);
+    let most = part.points().iter().map(past).fold(0.0, f64::max);
+    if most <= small {
+        return 0.0;
+    }
+    if halvings == 0 || past(&part.start()).max(past(&part.end())) > small {
+        return most;
+    }
+    let halves = [(0.0, 0.5), (0.5, 1.0)].map(|(a, b)| part.part(a, b));
+    halves.iter().map(|half| beyond(half, along, ends, (small, halvings - 1))).fold(0.0, f64::max)
 }
 
 /// Divisions of a piece, at least, in the search for a distance.
