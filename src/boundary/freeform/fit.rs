@@ -246,7 +246,9 @@ impl Piecewise {
         if whole.bulge.abs() > 1.0 || whole.bulge.is_nan() || b * c < 0.0 || chord <= noise || turns_back {
             return false;
         }
-        let off = whole.distance(next.start);
+        // Middles too, as a short arc says little about the circle of a long one.
+        let places = [next.start, self.arc.middle(), next.middle()];
+        let off = places.iter().map(|&p| whole.distance(p)).fold(0.0, f64::max);
         let fits = off <= FIT_ROUNDINGS * noise;
         if fits {
             self.arc = whole;
