@@ -105,7 +105,11 @@ fn find_ways(part: &Piece, along: Vector, noise: f64, (from, to): (f64, f64), wa
     let middle = 0.5 * (from + to);
     let (rises, falls) = (steps().all(|s| s >= -2.0 * noise), steps().all(|s| s <= 2.0 * noise));
     if rises || falls || middle <= from || middle >= to {
-        ways.push(Way { from, to, rises: if rises == falls { part.end().dot(along) > part.start().dot(along) } else { rises } });
+        ways.push(Way {
+            from,
+            to,
+            rises: if rises == falls { part.end().dot(along) > part.start().dot(along) } else { rises },
+        });
         return;
     }
     find_ways(&part.part(0.0, 0.5), along, noise, (from, middle), ways);
@@ -138,7 +142,9 @@ fn sub_curve(piece: &Piece, first: usize, count: usize, noise: f64) -> [Poly; 3]
     [
         Poly::with_errors(points().map(|(p, &w)| scaled(p.x - center.x, w))),
         Poly::with_errors(points().map(|(p, &w)| scaled(p.y - center.y, w))),
-        Poly::with_errors(weights.iter().map(|&w| (w, if piece.is_rational() { WEIGHT_NOISE * w } else { 0.0 }))),
+        Poly::with_errors(
+            weights.iter().map(|&w| (w, if piece.is_rational() { WEIGHT_NOISE * w } else { 0.0 })),
+        ),
     ]
 }
 

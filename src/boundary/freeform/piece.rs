@@ -18,6 +18,9 @@ pub(super) struct Piece {
     rational: bool,
     points: [Vector; LEN],
     weights: [f64; LEN],
+    /// Of a piece of degree 3 at most: coefficients of both numerators and the denominator by powers of
+    /// the parameter.
+    cubics: [[f64; 4]; 3],
 }
 
 /// Place and derivatives by the parameter.
@@ -74,6 +77,7 @@ impl Piece {
             rational: weights.iter().any(|&w| w != weights[0]),
             points: [Vector::default(); LEN],
             weights: [1.0; LEN],
+            cubics: [[0.0; 4]; 3],
         };
         piece.points[..points.len()].copy_from_slice(points);
         if piece.rational {
@@ -83,6 +87,7 @@ impl Piece {
                 *to = from / largest;
             }
         }
+        piece.expand();
         piece
     }
 
@@ -125,6 +130,7 @@ impl Piece {
     /// The same piece beginning exactly at a place that its start equals to round-off.
     pub fn starting_at(mut self, start: Vector) -> Piece {
         self.points[0] = start;
+        self.expand();
         self
     }
 
@@ -133,6 +139,7 @@ impl Piece {
         for p in &mut self.points[..=self.degree] {
             *p = map(*p);
         }
+        self.expand();
     }
 
     /// Place at `t`.
@@ -152,12 +159,14 @@ impl Piece {
     /// Place and first derivative at `t`.
     pub fn motion(&self, t: f64) -> (Vector, Vector) {
         if self.degree <= 3 {
-            let [x, y, w] = self.powers(t);
+            let [x, y, w] = &self.cubics;
+            let (x, y) = (risen(x, t), risen(y, t));
             if !self.rational {
-                return (vector(x[0], y[0]), vector(x[1], y[1]));
+                return (vector(x.0, y.0), vector(x.1, y.1));
             }
-            let q = vector(x[0], y[0]) / w[0];
-            return (q, (vector(x[1], y[1]) - q * w[1]) / w[0]);
+            let w = risen(w, t);
+            let q = vector(x.0, y.0) / w.0;
+            return (q, (vector(x.1, y.1) - q * w.1) / w.0);
         }
         if self.rational {
             let jet = self.jet(t);
@@ -196,16 +205,18 @@ impl Piece {
     #[inline]
     pub fn powers(&self, t: f64) -> [[f64; 4]; 3] {
         debug_assert!(self.degree <= 3);
-        let w = if self.rational {
-            cubic_powers(self.four(|_, w| w), self.degree, t)
-        } else {
-            [1.0, 0.0, 0.0, 0.0]
-        };
-        [
-            cubic_powers(self.four(|p, w| p.x * w), self.degree, t),
-            cubic_powers(self.four(|p, w| p.y * w), self.degree, t),
-            w,
-        ]
+        let [x, y, w] = &self.cubics;
+        [shifted(x, t), shifted(y, t), if self.rational { shifted(w, t) } else { *w }]
+    }
+
+    /// Notes the coefficients by powers of the parameter.
+    fn expand(&mut self) {
+        if self.degree <= 3 {
+            let n = self.degree;
+            let [x, y] = [self.four(|p, w| p.x * w), self.four(|p, w| p.y * w)];
+            let w = if self.rational { powers_of(self.four(|_, w| w), n) } else { [1.0, 0.0, 0.0, 0.0] };
+            self.cubics = [powers_of(x, n), powers_of(y, n), w];
+        }
     }
 
     /// Something of the first four control points and weights.
@@ -231,6 +242,7 @@ impl Piece {
         if from > 0.0 {
             part.cut(from / to, true);
         }
+        part.expand();
         part
     }
 
@@ -263,22 +275,31 @@ struct Homogeneous {
     w: [f64; LEN],
 }
 
-/// Coefficients by powers of the distance from `t` of a polynomial in Bernstein form of degree 3 at most.
-#[inline]
-fn cubic_powers([a, b, c, d]: [f64; 4], n: usize, t: f64) -> [f64; 4] {
-    let s = 1.0 - t;
-    let (u, v) = (s * a + t * b, s * b + t * c);
+/// Coefficients by powers of a polynomial in Bernstein form of degree 3 at most.
+fn powers_of([a, b, c, d]: [f64; 4], n: usize) -> [f64; 4] {
     match n {
-        3 => {
-            let w = s * c + t * d;
-            let (l, m) = (s * u + t * v, s * v + t * w);
-            let (first, second) = (m - l, w - 2.0 * v + u);
-            [s * l + t * m, 3.0 * first, 3.0 * second, d - 3.0 * c + 3.0 * b - a]
-        }
-        2 => [s * u + t * v, 2.0 * (v - u), c - 2.0 * b + a, 0.0],
-        1 => [u, b - a, 0.0, 0.0],
+        3 => [a, 3.0 * (b - a), 3.0 * ((c - b) - (b - a)), (d - c) - 2.0 * (c - b) + (b - a)],
+        2 => [a, 2.0 * (b - a), (c - b) - (b - a), 0.0],
+        1 => [a, b - a, 0.0, 0.0],
         _ => [a, 0.0, 0.0, 0.0],
     }
+}
+
+/// Value and derivative at `t` of a cubic by powers.
+#[inline]
+fn risen([a, b, c, d]: &[f64; 4], t: f64) -> (f64, f64) {
+    let e = d * t;
+    let h = b + (c + e) * t;
+    (a + h * t, h + (c + 2.0 * e) * t)
+}
+
+/// The same cubic by powers of the distance from `t`.
+#[inline]
+fn shifted([a, b, c, d]: &[f64; 4], t: f64) -> [f64; 4] {
+    let e = d * t;
+    let (f, g) = (c + e, c + 2.0 * e);
+    let h = b + f * t;
+    [a + h * t, h + g * t, g + e, *d]
 }
 
 /// Value and first three derivatives at `t` of a polynomial in Bernstein form.

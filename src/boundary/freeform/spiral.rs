@@ -105,13 +105,7 @@ impl Fitter {
     }
 
     /// Appends biarcs of equal errors, or halves where these need far fewer.
-    fn spread(
-        &mut self,
-        track: &Track,
-        ends: &Ends,
-        goal: &Goal,
-        out: &mut Vec<Cell>,
-    ) -> Result<(), Lost> {
+    fn spread(&mut self, track: &Track, ends: &Ends, goal: &Goal, out: &mut Vec<Cell>) -> Result<(), Lost> {
         let number = self.spread.number(track, ends, goal)?;
         if number > TRUSTED {
             let begin = out.len();
