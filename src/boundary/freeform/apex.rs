@@ -40,6 +40,23 @@ pub(super) struct ApexArc {
     /// Its ends, with its tangents.
     pub nodes: [Node; 2],
     shape: Shape,
+    tolerance: f64,
+}
+
+impl ApexArc {
+    /// The arc between biarcs before and behind it, which may have moved its ends along its circle; parameters
+    /// behind it go on from those before by some turn.
+    pub fn between(&self, track: &Track, before: &Cell, (after, turn): (&Cell, f64)) -> Cell {
+        let (Some((last, ..)), Some((next, ..))) = (before.spans().last(), after.spans().next()) else {
+            return self.cell;
+        };
+        if last.end == self.nodes[0].place && next.start == self.nodes[1].place {
+            return self.cell;
+        }
+        let angle = last.end_tangent().angle_to(next.start_tangent());
+        let arc = Arc { start: last.end, end: next.start, bulge: (0.25 * angle).tan() };
+        Cell::of_one(track, arc, [before.to, after.from + turn], self.tolerance)
+    }
 }
 
 /// What makes an arc over an apex.
@@ -92,7 +109,7 @@ pub(super) fn apex_arc(
     let (arc, [a, b], shape) = corrected(track, &apex, (most, tolerance), first, ends)?;
     let cell = Cell::of_one(track, arc, [a.u, b.u], tolerance);
     let nodes = [Node { tangent: arc.start_tangent(), ..a }, Node { tangent: arc.end_tangent(), ..b }];
-    (cell.distance.bound <= tolerance).then_some(ApexArc { cell, nodes, shape })
+    (cell.distance.bound <= tolerance).then_some(ApexArc { cell, nodes, shape, tolerance })
 }
 
 /// The widest arc within the tolerance that comes out when its shape is corrected by its errors.

@@ -44,12 +44,17 @@ pub(super) struct Ends {
     pub singles: [bool; 2],
     /// Whether the arc over an apex that ends there may be laid again within less.
     pub yields: [bool; 2],
+    /// Curvatures of the arcs over apices that end there.
+    pub circles: [Option<f64>; 2],
+    /// Parameters of those apices, or of the nodes.
+    pub reach: [f64; 2],
 }
 
 impl Ends {
     /// Ends without arcs over apices.
     pub fn of(nodes: [Node; 2]) -> Ends {
-        Ends { nodes, apex_arcs: [false; 2], singles: [false; 2], yields: [false; 2] }
+        let (none, reach) = ([false; 2], nodes.map(|node| node.u));
+        Ends { nodes, apex_arcs: none, singles: none, yields: none, circles: [None; 2], reach }
     }
 }
 

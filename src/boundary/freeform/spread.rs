@@ -15,12 +15,19 @@
 
 use super::biarc::{Arc, Joint, Node};
 use super::density::{Cursor, Density};
+use super::few::few;
 use super::layout::{Ends, Goal, Layout, Lost, MANY, SPARE, first};
 use super::spiral::{Cell, MAX_BIARCS, cell};
 use super::track::{Side, Track};
 
 /// A few biarcs may fit in the end though errors say that so many more would be needed.
 const FEWER: f64 = 31.0 / 32.0;
+
+/// With so many biarcs by the density at most, a few arcs are searched for, from so many for each, in so many
+/// numbers.
+const FEW: f64 = 2.25;
+const FEWEST: f64 = 1.75;
+const TRIED: usize = 2;
 
 /// Layouts tried at most, and those with one number of arcs.
 const MAX_LAYOUTS: usize = 16;
@@ -103,6 +110,9 @@ impl Spread {
     pub fn check(&mut self, track: &Track, ends: &Ends, goal: &Goal) -> Result<(), Lost> {
         self.is_filled = false;
         let Some(total) = self.fill(track, ends, goal) else { return Ok(()) };
+        if total <= FEW {
+            return Ok(());
+        }
         match Layout::of(first(total), ends) {
             Some(layout) => self.slants(track, ends, goal, (layout, total)).map(|_| ()),
             None => Ok(()),
@@ -123,6 +133,13 @@ impl Spread {
         out: &mut Vec<Cell>,
     ) -> Result<(), Lost> {
         let many = total > MANY;
+        if total <= FEW && goal.tilted {
+            let least = ((FEWEST * total).ceil() as usize).max(1);
+            let found = |arcs: usize| few(track, (ends, &self.density), (arcs, goal.tolerance), out);
+            if (least..least + TRIED).any(found) {
+                return Ok(());
+            }
+        }
         let (mut arcs, mut sweeps) = (first(total), 0);
         for _ in 0..MAX_LAYOUTS {
             let Some(layout) = Layout::of(arcs, ends) else {

@@ -224,7 +224,7 @@ impl<'a> Track<'a> {
     }
 
     /// The parameter between two others where the curve crosses the normal at a joint.
-    fn beyond(&self, joint: Vector, tangent: Vector, [from, near, to]: [f64; 3]) -> f64 {
+    pub fn beyond(&self, joint: Vector, tangent: Vector, [from, near, to]: [f64; 3]) -> f64 {
         let ahead = |u: f64| {
             let (piece, t) = self.locate(u, Side::Before);
             (piece.at(t) - joint).dot(tangent)
