@@ -10,6 +10,9 @@ pub(super) const MAX_CURVE_DEGREE: usize = 10;
 
 const LEN: usize = MAX_CURVE_DEGREE + 1;
 
+/// Where a weight is less than this part of the largest, powers of the parameter cost digits.
+const LEAST_WEIGHT: f64 = 1.0 / 16.0;
+
 /// A rational Bezier curve on 0..=1 with positive weights.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Piece {
@@ -18,7 +21,9 @@ pub(super) struct Piece {
     rational: bool,
     points: [Vector; LEN],
     weights: [f64; LEN],
-    /// Of a piece of degree 3 at most: coefficients of both numerators and the denominator by powers of
+    /// Whether those are noted: of a piece of degree 3 at most with weights near to each other.
+    has_powers: bool,
+    /// Coefficients of both numerators and the denominator by powers of
     /// the parameter.
     cubics: [[f64; 4]; 3],
 }
@@ -77,6 +82,7 @@ impl Piece {
             rational: weights.iter().any(|&w| w != weights[0]),
             points: [Vector::default(); LEN],
             weights: [1.0; LEN],
+            has_powers: false,
             cubics: [[0.0; 4]; 3],
         };
         piece.points[..points.len()].copy_from_slice(points);
@@ -144,7 +150,7 @@ impl Piece {
 
     /// Place at `t`.
     pub fn at(&self, t: f64) -> Vector {
-        if self.rational || self.degree <= 3 {
+        if self.rational || self.has_powers {
             return self.motion(t).0;
         }
         let (mut p, n) = (self.points, self.degree);
@@ -158,7 +164,7 @@ impl Piece {
 
     /// Place and first derivative at `t`.
     pub fn motion(&self, t: f64) -> (Vector, Vector) {
-        if self.degree <= 3 {
+        if self.has_powers {
             let [x, y, w] = &self.cubics;
             let (x, y) = (risen(x, t), risen(y, t));
             if !self.rational {
@@ -183,7 +189,7 @@ impl Piece {
 
     /// Place and derivatives at `t`.
     pub fn jet(&self, t: f64) -> Jet {
-        let [x, y, w] = if self.degree <= 3 {
+        let [x, y, w] = if self.has_powers {
             self.powers(t).map(|c| [c[0], c[1], 2.0 * c[2], 6.0 * c[3]])
         } else {
             let Homogeneous { x, y, w } = self.homogeneous();
@@ -200,18 +206,25 @@ impl Piece {
         Jet { q, d1, d2, d3 }
     }
 
+    /// Whether [`Piece::powers`] may be asked for.
+    #[inline]
+    pub fn has_powers(&self) -> bool {
+        self.has_powers
+    }
+
     /// The coefficients of both numerators and the denominator, of degree 3 at most, by powers of the
     /// distance from parameter `t`.
     #[inline]
     pub fn powers(&self, t: f64) -> [[f64; 4]; 3] {
-        debug_assert!(self.degree <= 3);
+        debug_assert!(self.has_powers);
         let [x, y, w] = &self.cubics;
         [shifted(x, t), shifted(y, t), if self.rational { shifted(w, t) } else { *w }]
     }
 
     /// Notes the coefficients by powers of the parameter.
     fn expand(&mut self) {
-        if self.degree <= 3 {
+        self.has_powers = self.degree <= 3 && self.weights().iter().all(|&w| w >= LEAST_WEIGHT);
+        if self.has_powers {
             let n = self.degree;
             let [x, y] = [self.four(|p, w| p.x * w), self.four(|p, w| p.y * w)];
             let w = if self.rational { powers_of(self.four(|_, w| w), n) } else { [1.0, 0.0, 0.0, 0.0] };

@@ -3,7 +3,7 @@
 //!
 //! **Needs** what [`super::bound`] needs, and gives the same answer where it gives one. **Guarantees** a
 //! bound that holds and is within the last of [`SLACKS`] of the largest distance. **Does not** answer for parts that
-//! turn much, for which [`super::bound`] is there.
+//! turn much and for weights of different orders, for which [`super::bound`] is there.
 //!
 //! **Method.** In the middle of the part the numerator `N` of the power (see [`super::bound`]) and its
 //! denominator `D` are polynomials of degree 6 on -1..=1. An arc with common tangents errs like a cubic
@@ -41,7 +41,7 @@ struct Local {
 /// Distance between the arc of a frame and the part of a piece between two parameters; a bound below
 /// `limit` need not be tight. `None` where it takes more to tell.
 pub(super) fn measure(frame: &Frame, piece: &Piece, (from, to): (f64, f64), limit: f64) -> Option<Distance> {
-    if piece.degree() > DEGREE {
+    if !piece.has_powers() {
         return None;
     }
     let local = Local::of(frame, piece, 0.5 * (from + to), 0.5 * (to - from));
@@ -66,7 +66,7 @@ pub(super) fn measure(frame: &Frame, piece: &Piece, (from, to): (f64, f64), limi
 /// How far the part of a piece between two parameters is to the left and to the right of an arc, as found
 /// and not proven. `None` for pieces of higher degree.
 pub(super) fn sides(frame: &Frame, piece: &Piece, (from, to): (f64, f64)) -> Option<[f64; 2]> {
-    if piece.degree() > DEGREE {
+    if !piece.has_powers() {
         return None;
     }
     let local = Local::of(frame, piece, 0.5 * (from + to), 0.5 * (to - from));
