@@ -29,13 +29,13 @@ const SAMPLES: usize = 8;
 const BEYOND: usize = 3;
 
 /// Corrections at most.
-const MAX_STEPS: usize = 10;
+const MAX_STEPS: usize = 8;
 
 /// Samples may be off by this part of the tolerance, as places between them are a little farther.
 const GOAL: f64 = 0.9375;
 
 /// After some steps, an error by so many tolerances will not come down.
-const HOPELESS: [f64; MAX_STEPS] = [64.0, 8.0, 4.0, 2.5, 2.0, 1.75, 1.5, 1.375, 1.25, 1.125];
+const HOPELESS: [f64; MAX_STEPS] = [64.0, 6.0, 2.5, 1.625, 1.375, 1.25, 1.125, 1.0625];
 
 /// Difference of a parameter that tells a derivative, in the unit of that parameter: a part of an arc or
 /// the tolerance.
@@ -43,6 +43,9 @@ const DIFFERENCE: f64 = 1.0 / 1024.0;
 
 /// A parameter is corrected by so many of its units at most.
 const STRIDE: f64 = 0.5;
+
+/// After steps as short as this, errors go on to change as before.
+const STRAIGHT: f64 = 1.0 / 16.0;
 
 /// Keeps corrections finite where a parameter does nothing.
 const DAMPING: f64 = 1e-9;
@@ -304,45 +307,49 @@ impl<'a, 'b> Search<'a, 'b> {
 
     /// Corrects parameters until the arcs are near enough, if they become so.
     fn run(&self) -> Option<Chain> {
-        let count = self.parameters();
         let mut parameters = Parameters::default();
         let mut chain = self.chain(&parameters)?;
-        let (mut errors, mut changed) = (Vec::new(), Vec::new());
-        let mut weights = vec![1.0; self.samples.len()];
+        let mut fit = Squares::new(self.samples.len(), self.parameters());
+        let mut moved = f64::INFINITY;
         for hopeless in HOPELESS {
-            self.errors(&chain, &mut errors);
-            let worst = errors.iter().fold(0.0, |m: f64, e| m.max(e.abs()));
+            self.errors(&chain, &mut fit.errors);
+            let worst = fit.errors.iter().fold(0.0, |m: f64, e| m.max(e.abs()));
             if worst <= GOAL {
                 return Some(chain);
             }
-            if worst > hopeless || worst.is_nan() || count == 0 {
+            let in_vain = moved <= STRAIGHT && fit.least() > 1.0;
+            if worst > hopeless || worst.is_nan() || fit.slopes.is_empty() || in_vain {
                 return None;
             }
-            let mut slopes = [const { Vec::new() }; MOST_PARAMETERS];
-            for (i, slope) in slopes[..count].iter_mut().enumerate() {
-                let mut other = parameters;
-                other[i] += DIFFERENCE;
-                self.errors(&self.chain(&other)?, &mut changed);
-                slope.extend(changed.iter().zip(&errors).map(|(c, e)| (c - e) / DIFFERENCE));
+            if moved.is_finite() {
+                fit.weigh(worst);
             }
-            let step = least_squares(&slopes[..count], &errors, &weights)?;
+            if moved > STRAIGHT {
+                self.take_slopes(&parameters, &mut fit)?;
+            }
+            let step = fit.step()?;
             let longest = step.iter().fold(0.0, |m: f64, s| m.max(s.abs()));
             let part = (STRIDE / longest).min(1.0);
             // A step too far is taken in halves.
-            let halves = [part, 0.5 * part, 0.25 * part];
-            let (next, better) = halves.iter().find_map(|part| {
+            let (part, next, further) = [part, 0.5 * part, 0.25 * part].into_iter().find_map(|part| {
                 let mut other = parameters;
-                (0..count).for_each(|i| other[i] += part * step[i]);
-                self.chain(&other).map(|chain| (other, chain))
+                other.iter_mut().zip(&step).for_each(|(p, s)| *p += part * s);
+                self.chain(&other).map(|chain| (part, other, chain))
             })?;
-            (parameters, chain) = (next, better);
-            for (weight, error) in weights.iter_mut().zip(&errors) {
-                *weight *= error.abs() / worst + DAMPING;
-            }
-            let most = weights.iter().fold(0.0, |m: f64, w| m.max(*w));
-            weights.iter_mut().for_each(|w| *w /= most);
+            (parameters, chain, moved) = (next, further, part * longest);
         }
         None
+    }
+
+    /// How errors change with each parameter.
+    fn take_slopes(&self, parameters: &Parameters, fit: &mut Squares) -> Option<()> {
+        for (i, slope) in fit.slopes.iter_mut().enumerate() {
+            let mut other = *parameters;
+            other[i] += DIFFERENCE;
+            self.errors(&self.chain(&other)?, slope);
+            slope.iter_mut().zip(&fit.errors).for_each(|(c, e)| *c = (*c - e) / DIFFERENCE);
+        }
+        Some(())
     }
 
     /// Whether curvatures rise or fall all along, those of arcs over apices included.
@@ -383,8 +390,11 @@ impl<'a, 'b> Search<'a, 'b> {
             for (i, arc) in pair.iter().enumerate() {
                 let is_last = arc.end == arcs[n - 1].end;
                 let near = at + (last - at) * 0.5;
-                let next =
-                    if is_last { last } else { self.track.beyond(arc.end, arc.end_tangent(), [at, near, last]) };
+                let next = if is_last {
+                    last
+                } else {
+                    self.track.beyond(arc.end, arc.end_tangent(), [at, near, last])
+                };
                 if next <= at {
                     return None;
                 }
@@ -406,20 +416,52 @@ impl<'a, 'b> Search<'a, 'b> {
     }
 }
 
-/// The least squares of weighted errors that change by slopes: the step of the parameters.
-fn least_squares(slopes: &[Vec<f64>], errors: &[f64], weights: &[f64]) -> Option<Parameters> {
-    let n = slopes.len();
-    let mut matrix = [[0.0; MOST_PARAMETERS + 1]; MOST_PARAMETERS];
-    for i in 0..n {
-        for j in i..n {
-            let sum: f64 = weights.iter().zip(&slopes[i]).zip(&slopes[j]).map(|((w, a), b)| w * a * b).sum();
-            (matrix[i][j], matrix[j][i]) = (sum, sum);
-        }
-        matrix[i][n] = -weights.iter().zip(&slopes[i]).zip(errors).map(|((w, a), e)| w * a * e).sum::<f64>();
+/// Errors, how they change with each parameter, and how much they weigh.
+struct Squares {
+    errors: Vec<f64>,
+    slopes: Vec<Vec<f64>>,
+    weights: Vec<f64>,
+}
+
+impl Squares {
+    fn new(samples: usize, parameters: usize) -> Squares {
+        let slopes = (0..parameters).map(|_| Vec::with_capacity(samples)).collect();
+        Squares { errors: Vec::with_capacity(samples), slopes, weights: vec![1.0; samples] }
     }
-    let trace: f64 = (0..n).map(|i| matrix[i][i]).fold(0.0, f64::max);
-    (0..n).for_each(|i| matrix[i][i] += DAMPING * trace);
-    solved(&mut matrix, n)
+
+    /// The weighted mean of errors that are as small as they can be: no largest one can be smaller.
+    fn least(&self) -> f64 {
+        let sum: f64 = self.weights.iter().zip(&self.errors).map(|(w, e)| w * e * e).sum();
+        (sum / self.weights.iter().sum::<f64>()).sqrt()
+    }
+
+    /// The step that makes the weighted squares least.
+    fn step(&mut self) -> Option<Parameters> {
+        let n = self.slopes.len();
+        let mut matrix = [[0.0; MOST_PARAMETERS + 1]; MOST_PARAMETERS];
+        let mut weighted = vec![0.0; self.weights.len()];
+        for i in 0..n {
+            for ((to, w), a) in weighted.iter_mut().zip(&self.weights).zip(&self.slopes[i]) {
+                *to = w * a;
+            }
+            let with = |other: &[f64]| weighted.iter().zip(other).map(|(a, b)| a * b).sum::<f64>();
+            for j in i..n {
+                let sum = with(&self.slopes[j]);
+                (matrix[i][j], matrix[j][i]) = (sum, sum);
+            }
+            matrix[i][n] = -with(&self.errors);
+        }
+        let most = (0..n).map(|i| matrix[i][i]).fold(0.0, f64::max);
+        (0..n).for_each(|i| matrix[i][i] += DAMPING * most);
+        solved(&mut matrix, n)
+    }
+
+    /// What is far weighs more.
+    fn weigh(&mut self, worst: f64) {
+        for (weight, error) in self.weights.iter_mut().zip(&self.errors) {
+            *weight *= error.abs() / worst + DAMPING;
+        }
+    }
 }
 
 /// Solves a symmetric system with positive pivots.

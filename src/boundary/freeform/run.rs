@@ -306,7 +306,8 @@ impl Laid {
                 continue;
             }
             let turn = if i + 1 == n { work.run.end() - work.run.at(0) } else { 0.0 };
-            let [before, after] = [&self.parts[i - 1], &self.parts[(i + 1) % n]].map(|part| part.cells.clone());
+            let [before, after] =
+                [&self.parts[i - 1], &self.parts[(i + 1) % n]].map(|part| part.cells.clone());
             let (before, after) = (self.cells[before].last(), self.cells[after].first());
             let laid = match (before, after) {
                 (Some(before), Some(after)) => apex_arc.between(work.track, before, (after, turn)),
