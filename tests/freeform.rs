@@ -91,7 +91,7 @@ fn wave(degree: usize) -> Nurbs {
 
 /// Equal boundaries may differ by this part of the tolerance: the largest error of an arc, which says
 /// how long it may be, is known to that precision.
-const SAME: f64 = 1e-5;
+const SAME: f64 = 1e-4;
 
 /// Those of random curves may differ by this part: where an arc errs most is sought in each piece of the curve.
 const ROUGHLY_SAME: f64 = 1e-2;

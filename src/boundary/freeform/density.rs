@@ -9,7 +9,7 @@ use super::piece::Bend;
 use super::track::Track;
 
 /// Precision of the integral over a leaf, in biarcs.
-const PRECISION: f64 = 1.0 / 8_388_608.0;
+const PRECISION: f64 = 1.0 / 16_777_216.0;
 
 /// How many times better Boole's rule is on two halves than on the whole.
 const BETTER: f64 = 63.0;
@@ -175,7 +175,7 @@ mod tests {
         let mut density = Density::default();
         density.fill(&track, &ends, |bend| bend.speed);
         let total = density.total();
-        assert!((total - 2.0 * TAU).abs() < 8.0 * PRECISION);
+        assert!((total - 2.0 * TAU).abs() < 64.0 * PRECISION);
         let mut cursor = Cursor::default();
         for i in 1..10 {
             let angle = TAU * f64::from(i) / 10.0;

@@ -37,7 +37,7 @@ pub(super) struct Features {
     pub slopes: [i8; 2],
 }
 
-/// Steps of Newton's method for the place of a cusp; it starts within the root of round-off.
+/// Steps of Newton's method for the place of a cusp or a fold; it starts within the root of round-off.
 const CUSP_STEPS: usize = 4;
 
 /// Relative round-off of a weight: halves of an ulp, three for each of ten levels of knot insertion.
@@ -83,7 +83,17 @@ fn folds(piece: &Piece, along: Vector, noise: f64) -> Vec<f64> {
     let mut ways = Vec::new();
     find_ways(piece, along, noise, (0.0, 1.0), &mut ways);
     let turns = ways.windows(2).filter(|w| w[0].rises != w[1].rises);
-    turns.map(|w| 0.5 * (w[0].to + w[1].from)).collect()
+    turns.map(|w| stationary(piece, along, [w[0].from, 0.5 * (w[0].to + w[1].from), w[1].to])).collect()
+}
+
+/// Where a straight piece is farthest along, near the middle one of three parameters and between the others.
+fn stationary(piece: &Piece, along: Vector, [from, near, to]: [f64; 3]) -> f64 {
+    let mut t = near;
+    for _ in 0..CUSP_STEPS {
+        let jet = piece.jet(t);
+        t -= jet.d1.dot(along) / jet.d2.dot(along);
+    }
+    if t > from && t < to { t } else { near }
 }
 
 /// Parameters between which a straight piece runs one way.
