@@ -14,6 +14,7 @@
 //! take the place of a biarc, in the middle, where its tangents are those that its neighbors want.
 
 use super::biarc::{Arc, Joint, Node};
+use super::bound::Distance;
 use super::density::{Cursor, Density};
 use super::few::few;
 use super::layout::{Ends, Goal, Layout, Lost, MANY, SPARE, first};
@@ -89,6 +90,8 @@ pub(super) struct Spread {
     /// The nodes, and places of the curve halfway between them.
     nodes: Vec<Node>,
     halfway: Vec<Node>,
+    /// The arc that is alone.
+    alone: Option<Arc>,
     cells: Vec<Cell>,
     /// How much denser biarcs must be.
     growth: Vec<f64>,
@@ -152,9 +155,13 @@ impl Spread {
                 arcs += 1;
                 continue;
             }
-            self.lay(track, ends, goal, layout);
+            self.lay(track, ends, goal, layout, many);
             let steep = [0, 1].map(|end| slants[end] > 1.0 && ends.yields[end]);
-            let judged = self.judge(goal, steep, many);
+            let mut judged = self.judge(goal, steep, many);
+            if judged.fits && many {
+                self.complete(track, goal, layout);
+                judged = self.judge(goal, steep, many);
+            }
             if judged.fits {
                 out.extend_from_slice(&self.cells);
                 return Ok(());
@@ -203,27 +210,57 @@ impl Spread {
         if steep == [false; 2] { Ok(slants) } else { Err(Lost { ends: steep }) }
     }
 
-    /// Lays nodes at equal shares of the corrected density, and biarcs between.
-    fn lay(&mut self, track: &Track, ends: &Ends, goal: &Goal, layout: Layout) {
+    /// Lays nodes at equal shares of the corrected density, and biarcs between; of many only those near knots
+    /// of the curve and at ends, as the density is right elsewhere.
+    fn lay(&mut self, track: &Track, ends: &Ends, goal: &Goal, layout: Layout, many: bool) {
         self.share();
         self.place(track, ends);
         if goal.tilted {
             self.tilt(layout.single);
         }
-        let alone = layout.single.map(|i| (i, self.single(i)));
+        self.alone = layout.single.map(|i| self.single(i));
         self.cells.clear();
         for i in 0..layout.biarcs {
-            let (a, b, middle) = (&self.nodes[i], &self.nodes[i + 1], &self.halfway[i]);
-            self.cells.push(match alone {
-                Some((single, arc)) if single == i => Cell::of_one(track, arc, [a.u, b.u], goal.tolerance),
-                _ => {
-                    let [before, after] = [a, b].map(|n| (n.place - middle.place).length());
-                    let shifted = Joint::Shifted((before - after) / (before + after));
-                    let joint = if goal.tilted { shifted } else { goal.joint };
-                    cell(track, [a, b], middle.u, joint, goal.tolerance)
-                }
-            });
+            let measured = !many || self.is_uneven(i);
+            let cell = if measured { self.cell(track, goal, layout, i) } else { self.unmeasured(i) };
+            self.cells.push(cell);
         }
+    }
+
+    /// Lays the biarcs that were left out.
+    fn complete(&mut self, track: &Track, goal: &Goal, layout: Layout) {
+        for i in 0..layout.biarcs {
+            if self.cells[i].distance == Distance::ZERO {
+                self.cells[i] = self.cell(track, goal, layout, i);
+            }
+        }
+    }
+
+    /// Whether a cell or one beside it runs over a knot, or there is none on one side.
+    fn is_uneven(&self, i: usize) -> bool {
+        if i == 0 || i + 2 >= self.nodes.len() {
+            return true;
+        }
+        self.nodes[i - 1].u.floor() + 1.0 < self.nodes[i + 2].u
+    }
+
+    /// A cell without its arcs.
+    fn unmeasured(&self, i: usize) -> Cell {
+        let (a, b) = (&self.nodes[i], &self.nodes[i + 1]);
+        let none = Arc { start: a.place, end: a.place, bulge: 0.0 };
+        Cell { arcs: [none; 2], from: a.u, joint: b.u, to: b.u, distance: Distance::ZERO, sharp: false }
+    }
+
+    /// The biarc or arc alone between two nodes, with its distance from the curve.
+    fn cell(&self, track: &Track, goal: &Goal, layout: Layout, i: usize) -> Cell {
+        let (a, b, middle) = (&self.nodes[i], &self.nodes[i + 1], &self.halfway[i]);
+        if let (Some(arc), true) = (self.alone, layout.single == Some(i)) {
+            return Cell::of_one(track, arc, [a.u, b.u], goal.tolerance);
+        }
+        let [before, after] = [a, b].map(|n| (n.place - middle.place).length());
+        let shifted = Joint::Shifted((before - after) / (before + after));
+        let joint = if goal.tilted { shifted } else { goal.joint };
+        cell(track, [a, b], middle.u, joint, goal.tolerance)
     }
 
     /// One arc between two nodes, which get its tangents; those at the ends of the part keep theirs.
