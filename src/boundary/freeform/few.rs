@@ -440,13 +440,13 @@ impl Squares {
         let n = self.slopes.len();
         let mut matrix = [[0.0; MOST_PARAMETERS + 1]; MOST_PARAMETERS];
         let mut weighted = vec![0.0; self.weights.len()];
-        for i in 0..n {
-            for ((to, w), a) in weighted.iter_mut().zip(&self.weights).zip(&self.slopes[i]) {
+        for (i, slope) in self.slopes.iter().enumerate() {
+            for ((to, w), a) in weighted.iter_mut().zip(&self.weights).zip(slope) {
                 *to = w * a;
             }
             let with = |other: &[f64]| weighted.iter().zip(other).map(|(a, b)| a * b).sum::<f64>();
-            for j in i..n {
-                let sum = with(&self.slopes[j]);
+            for (j, other) in self.slopes.iter().enumerate().skip(i) {
+                let sum = with(other);
                 (matrix[i][j], matrix[j][i]) = (sum, sum);
             }
             matrix[i][n] = -with(&self.errors);
@@ -467,21 +467,20 @@ impl Squares {
 /// Solves a symmetric system with positive pivots.
 fn solved(matrix: &mut [[f64; MOST_PARAMETERS + 1]; MOST_PARAMETERS], n: usize) -> Option<Parameters> {
     for i in 0..n {
-        let pivot = matrix[i][i];
-        if pivot <= 0.0 || pivot.is_nan() {
+        let row = matrix[i];
+        if row[i] <= 0.0 || row[i].is_nan() {
             return None;
         }
-        for j in i + 1..n {
-            let factor = matrix[j][i] / pivot;
-            for k in i..=n {
-                matrix[j][k] -= factor * matrix[i][k];
-            }
+        for other in &mut matrix[i + 1..n] {
+            let factor = other[i] / row[i];
+            other.iter_mut().zip(&row).for_each(|(a, b)| *a -= factor * b);
         }
     }
     let mut step = Parameters::default();
     for i in (0..n).rev() {
-        let rest: f64 = (i + 1..n).map(|j| matrix[i][j] * step[j]).sum();
-        step[i] = (matrix[i][n] - rest) / matrix[i][i];
+        let row = &matrix[i];
+        let rest: f64 = row[i + 1..n].iter().zip(&step[i + 1..n]).map(|(a, b)| a * b).sum();
+        step[i] = (row[n] - rest) / row[i];
     }
     step.iter().all(|s| s.is_finite()).then_some(step)
 }

@@ -210,8 +210,8 @@ impl Spread {
         if steep == [false; 2] { Ok(slants) } else { Err(Lost { ends: steep }) }
     }
 
-    /// Lays nodes at equal shares of the corrected density, and biarcs between; of many only those near knots
-    /// of the curve and at ends, as the density is right elsewhere.
+    /// Lays nodes at equal shares of the corrected density, and biarcs between; of many only those near kinks
+    /// and at ends, as the density is right elsewhere.
     fn lay(&mut self, track: &Track, ends: &Ends, goal: &Goal, layout: Layout, many: bool) {
         self.share();
         self.place(track, ends);
@@ -221,7 +221,7 @@ impl Spread {
         self.alone = layout.single.map(|i| self.single(i));
         self.cells.clear();
         for i in 0..layout.biarcs {
-            let measured = !many || self.is_uneven(i);
+            let measured = !many || self.is_uneven(track, i);
             let cell = if measured { self.cell(track, goal, layout, i) } else { self.unmeasured(i) };
             self.cells.push(cell);
         }
@@ -236,12 +236,20 @@ impl Spread {
         }
     }
 
-    /// Whether a cell or one beside it runs over a knot, or there is none on one side.
-    fn is_uneven(&self, i: usize) -> bool {
+    /// Whether the derivative of the curvature jumps in a cell or one beside it, or there is none on one side.
+    fn is_uneven(&self, track: &Track, i: usize) -> bool {
         if i == 0 || i + 2 >= self.nodes.len() {
             return true;
         }
-        self.nodes[i - 1].u.floor() + 1.0 < self.nodes[i + 2].u
+        let (from, to) = (self.nodes[i - 1].u, self.nodes[i + 2].u);
+        let mut knot = from.floor() + 1.0;
+        while knot < to {
+            if track.has_kink(knot) {
+                return true;
+            }
+            knot += 1.0;
+        }
+        false
     }
 
     /// A cell without its arcs.

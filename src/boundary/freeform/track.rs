@@ -33,6 +33,9 @@ pub(super) enum Side {
 /// takes over when it fails.
 const MAX_STEPS: usize = 80;
 
+/// A jump of the derivative of the curvature by this part of it matters to a biarc over it.
+const KINK: f64 = 1.0 / 64.0;
+
 impl<'a> Track<'a> {
     /// The track of some pieces.
     pub fn new(curve: &'a Pieces) -> Track<'a> {
@@ -83,6 +86,16 @@ impl<'a> Track<'a> {
         let jet = piece.jet(t);
         let tangent = leg.unwrap_or(jet.d1).unit();
         Node { u, place: self.grid.snap(place), tangent, curvature: jet.curvature() }
+    }
+
+    /// Whether the derivative of the curvature jumps where two pieces meet, other than by round-off or a
+    /// little.
+    pub fn has_kink(&self, knot: f64) -> bool {
+        let slopes = [Side::Before, Side::After].map(|side| {
+            let (piece, t) = self.locate(knot, side);
+            piece.jet(t).curvature_slope()
+        });
+        (slopes[0] - slopes[1]).abs() > KINK * (slopes[0].abs() + slopes[1].abs())
     }
 
     /// The place at a parameter.
