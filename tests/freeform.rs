@@ -91,11 +91,10 @@ fn wave(degree: usize) -> Nurbs {
 
 /// Equal boundaries may differ by this part of the tolerance: the largest error of an arc, which says
 /// how long it may be, is known to that precision.
-const SAME: f64 = 1e-5;
+const SAME: f64 = 1e-4;
 
-/// Those of wild curves, where apices crowd and arcs over them make room for each other step by step, may
-/// differ by this part.
-const ROUGHLY_SAME: f64 = 0.25;
+/// Those of random curves may differ by this part: where an arc errs most is sought in each piece of the curve.
+const ROUGHLY_SAME: f64 = 1e-2;
 
 /// Largest distance between two paths, both ways.
 fn apart(a: &ArcSpline, b: &ArcSpline) -> f64 {

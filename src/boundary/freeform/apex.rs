@@ -40,6 +40,23 @@ pub(super) struct ApexArc {
     /// Its ends, with its tangents.
     pub nodes: [Node; 2],
     shape: Shape,
+    tolerance: f64,
+}
+
+impl ApexArc {
+    /// The arc between biarcs before and behind it, which may have moved its ends along its circle; parameters
+    /// behind it go on from those before by some turn.
+    pub fn between(&self, track: &Track, before: &Cell, (after, turn): (&Cell, f64)) -> Cell {
+        let (Some((last, ..)), Some((next, ..))) = (before.spans().last(), after.spans().next()) else {
+            return self.cell;
+        };
+        if last.end == self.nodes[0].place && next.start == self.nodes[1].place {
+            return self.cell;
+        }
+        let angle = last.end_tangent().angle_to(next.start_tangent());
+        let arc = Arc { start: last.end, end: next.start, bulge: (0.25 * angle).tan() };
+        Cell::of_one(track, arc, [before.to, after.from + turn], self.tolerance)
+    }
 }
 
 /// What makes an arc over an apex.
@@ -92,7 +109,7 @@ pub(super) fn apex_arc(
     let (arc, [a, b], shape) = corrected(track, &apex, (most, tolerance), first, ends)?;
     let cell = Cell::of_one(track, arc, [a.u, b.u], tolerance);
     let nodes = [Node { tangent: arc.start_tangent(), ..a }, Node { tangent: arc.end_tangent(), ..b }];
-    (cell.distance.bound <= tolerance).then_some(ApexArc { cell, nodes, shape })
+    (cell.distance.bound <= tolerance).then_some(ApexArc { cell, nodes, shape, tolerance })
 }
 
 /// The widest arc within the tolerance that comes out when its shape is corrected by its errors.
@@ -124,15 +141,14 @@ fn corrected(
             shape = Shape { reach: reach.map(|r| 0.5 * r), lift: 0.0 };
             continue;
         }
-        let factors = [0, 1].map(|i| {
+        let wanted = [0, 1].map(|i| {
             let balanced = 0.5 * (errors.sides[i] + errors.middle);
-            ((1.0 - 0.5 * WINDOW) / balanced).powf(0.25).clamp(0.5, 2.0).min(most[i] / reach[i])
+            let factor = ((1.0 - 0.5 * WINDOW) / balanced).powf(0.25).clamp(0.5, 2.0);
+            (reach[i] * factor).min(most[i])
         });
-        let both = 0.5 * (factors[0] + factors[1]);
-        shape = Shape {
-            reach: [0, 1].map(|i| reach[i] * factors[i]),
-            lift: (lift + errors.raised() * tolerance) * both * both * both * both,
-        };
+        let both = 0.5 * (wanted[0] / reach[0] + wanted[1] / reach[1]);
+        let lift = (lift + errors.raised() * tolerance) * both * both * both * both;
+        shape = Shape { reach: wanted, lift };
     }
     good
 }

@@ -50,11 +50,14 @@ pub(super) struct Poly {
 impl Poly {
     /// From coefficients that all have the same absolute error.
     pub fn new(coefficients: impl IntoIterator<Item = f64>, error: f64) -> Poly {
-        let mut p = Poly { degree: 0, value: [0.0; LEN], error: [0.0; LEN] };
-        for (i, c) in coefficients.into_iter().enumerate() {
-            p.degree = i;
-            p.value[i] = c;
-            p.error[i] = error;
+        Poly::with_errors(coefficients.into_iter().map(|c| (c, error)))
+    }
+
+    /// From coefficients, each with its own absolute error.
+    pub fn with_errors(coefficients: impl IntoIterator<Item = (f64, f64)>) -> Poly {
+        let mut p = Poly::zero(0);
+        for (i, (value, error)) in coefficients.into_iter().enumerate() {
+            (p.degree, p.value[i], p.error[i]) = (i, value, error);
         }
         p
     }

@@ -48,6 +48,11 @@ impl Arc {
         Arc { start, end, bulge: u.cross(tangent) / (1.0 + u.dot(tangent)) }
     }
 
+    /// The place halfway along it.
+    pub fn middle(&self) -> Vector {
+        (self.start + self.end) * 0.5 - (self.end - self.start).left() * (0.5 * self.bulge)
+    }
+
     /// Signed curvature.
     pub fn curvature(&self) -> f64 {
         4.0 * self.bulge / ((1.0 + self.bulge * self.bulge) * (self.end - self.start).length())

@@ -1,21 +1,24 @@
 //! How densely biarcs must lie along a part of the curve, its integral, and places at shares of it.
 //!
 //! **Guarantees** integrals to [`PRECISION`] of a biarc, so that places do not depend on the parameter
-//! of the curve. **Method.** Simpson's rule on halves of halves, until both say the same; between, the
-//! quartic through five values, integrated, is solved for the parameter.
+//! of the curve. **Method.** Boole's rule on halves of halves, until a whole and its halves say the same;
+//! between, the quartic through five values, integrated, is solved for the parameter.
 
 use super::biarc::Node;
 use super::piece::Bend;
 use super::track::Track;
 
 /// Precision of the integral over a leaf, in biarcs.
-const PRECISION: f64 = 1.0 / 8_388_608.0;
+const PRECISION: f64 = 1.0 / 16_777_216.0;
+
+/// How many times better Boole's rule is on two halves than on the whole.
+const BETTER: f64 = 63.0;
 
 /// Halvings of a piece at most; a root of the density, like that at an apex, takes most of them.
 const MAX_HALVINGS: u32 = 24;
 
-/// Halvings of a piece at least, as five values may agree by chance.
-const LEAST_HALVINGS: u32 = 1;
+/// With so many leaves already, none is halved: the density is noise.
+const MAX_LEAVES: usize = 1 << 16;
 
 /// Steps of the search within a leaf.
 const MAX_STEPS: usize = 60;
@@ -62,7 +65,8 @@ impl Density {
             if a < b {
                 let piece = track.piece(whole as usize);
                 let at = |t: f64| density(&piece.jet(t).bend());
-                let values = [at(a), at(0.5 * (a + b)), at(b)];
+                let quarter = 0.25 * (b - a);
+                let values = [0.0, 1.0, 2.0, 3.0, 4.0].map(|i| at(a + i * quarter));
                 self.halve(whole, (a, b), values, 0, &at);
             }
             whole += 1.0;
@@ -78,38 +82,40 @@ impl Density {
         &mut self,
         whole: f64,
         (a, b): (f64, f64),
-        [first, middle, last]: [f64; 3],
+        values: [f64; 5],
         halvings: u32,
         at: &impl Fn(f64) -> f64,
     ) {
-        let (width, center) = (b - a, 0.5 * (a + b));
-        let values = [first, at(a + 0.25 * width), middle, at(a + 0.75 * width), last];
-        let [v0, v1, v2, v3, v4] = values;
-        let coarse = width / 6.0 * (v0 + 4.0 * v2 + v4);
-        let fine = width / 12.0 * (v0 + 4.0 * v1 + 2.0 * v2 + 4.0 * v3 + v4);
-        let unsure = (fine - coarse).abs() > 15.0 * PRECISION;
-        if halvings < LEAST_HALVINGS || unsure && halvings < MAX_HALVINGS {
-            self.halve(whole, (a, center), [v0, v1, v2], halvings + 1, at);
-            self.halve(whole, (center, b), [v2, v3, v4], halvings + 1, at);
-            return;
+        let (center, eighth) = (0.5 * (a + b), 0.125 * (b - a));
+        let [v0, v2, v4, v6, v8] = values;
+        let [v1, v3, v5, v7] = [1.0, 3.0, 5.0, 7.0].map(|i| at(a + i * eighth));
+        let halves = [[v0, v1, v2, v3, v4], [v4, v5, v6, v7, v8]];
+        let fine = eighth * (boole(&halves[0]) + boole(&halves[1]));
+        let unsure = (fine - 2.0 * eighth * boole(&values)).abs() > BETTER * PRECISION;
+        if unsure && halvings < MAX_HALVINGS && self.leaves.len() < MAX_LEAVES {
+            self.halve(whole, (a, center), halves[0], halvings + 1, at);
+            self.halve(whole, (center, b), halves[1], halvings + 1, at);
+        } else {
+            self.push(whole + a, eighth, &halves[0]);
+            self.push(whole + center, eighth, &halves[1]);
         }
+    }
+
+    /// Appends a leaf with the values at its quarters.
+    fn push(&mut self, from: f64, quarter: f64, values: &[f64; 5]) {
+        let [v0, v1, v2, v3, v4] = *values;
         let (d1, d2) = (v1 - v0, v2 - 2.0 * v1 + v0);
         let (d3, d4) = (v3 - 3.0 * v2 + 3.0 * v1 - v0, v4 - 4.0 * v3 + 6.0 * v2 - 4.0 * v1 + v0);
-        let leaf = Leaf {
-            from: whole + a,
-            quarter: 0.25 * width,
-            coefficients: [
-                v0,
-                d1 - d2 / 2.0 + d3 / 3.0 - d4 / 4.0,
-                d2 / 2.0 - d3 / 2.0 + 11.0 * d4 / 24.0,
-                d3 / 6.0 - d4 / 4.0,
-                d4 / 24.0,
-            ],
-            before: self.total,
-            integral: fine + (fine - coarse) / 15.0,
-        };
-        self.total += leaf.integral;
-        self.leaves.push(leaf);
+        let coefficients = [
+            v0,
+            d1 - d2 / 2.0 + d3 / 3.0 - d4 / 4.0,
+            d2 / 2.0 - d3 / 2.0 + 11.0 * d4 / 24.0,
+            d3 / 6.0 - d4 / 4.0,
+            d4 / 24.0,
+        ];
+        let integral = quarter * boole(values);
+        self.leaves.push(Leaf { from, quarter, coefficients, before: self.total, integral });
+        self.total += integral;
     }
 
     /// The parameter up to which the integral is `share`; shares must not fall from call to call with
@@ -121,6 +127,11 @@ impl Density {
         }
         self.leaves.get(cursor.0).map_or(self.end, |leaf| leaf.from + leaf.quarter * leaf.solve(share))
     }
+}
+
+/// The integral of the quartic through five values a unit apart.
+fn boole([a, b, c, d, e]: &[f64; 5]) -> f64 {
+    (14.0 * (a + e) + 64.0 * (b + d) + 24.0 * c) / 45.0
 }
 
 impl Leaf {
@@ -164,7 +175,7 @@ mod tests {
         let mut density = Density::default();
         density.fill(&track, &ends, |bend| bend.speed);
         let total = density.total();
-        assert!((total - 2.0 * TAU).abs() < 8.0 * PRECISION);
+        assert!((total - 2.0 * TAU).abs() < 64.0 * PRECISION);
         let mut cursor = Cursor::default();
         for i in 1..10 {
             let angle = TAU * f64::from(i) / 10.0;

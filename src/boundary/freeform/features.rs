@@ -37,8 +37,11 @@ pub(super) struct Features {
     pub slopes: [i8; 2],
 }
 
-/// Steps of Newton's method for the place of a cusp; it starts within the root of round-off.
+/// Steps of Newton's method for the place of a cusp or a fold; it starts within the root of round-off.
 const CUSP_STEPS: usize = 4;
+
+/// Relative round-off of a weight: halves of an ulp, three for each of ten levels of knot insertion.
+const WEIGHT_NOISE: f64 = 0.5 * f64::EPSILON * 32.0;
 
 /// Finds the shape of a piece whose control points are known up to `noise`.
 pub(super) fn shape(piece: &Piece, noise: f64) -> Shape {
@@ -75,14 +78,52 @@ pub(super) fn shape(piece: &Piece, noise: f64) -> Shape {
     })
 }
 
-/// Where a straight piece turns back.
+/// Where a straight piece turns back by more than round-off.
 fn folds(piece: &Piece, along: Vector, noise: f64) -> Vec<f64> {
-    let steps = piece.points().windows(2).map(|w| (w[1] - w[0]).dot(along));
-    if steps.clone().all(|s| s >= -2.0 * noise) || steps.clone().all(|s| s <= 2.0 * noise) {
-        return Vec::new();
+    let mut ways = Vec::new();
+    find_ways(piece, along, noise, (0.0, 1.0), &mut ways);
+    let turns = ways.windows(2).filter(|w| w[0].rises != w[1].rises);
+    turns.map(|w| stationary(piece, along, [w[0].from, 0.5 * (w[0].to + w[1].from), w[1].to])).collect()
+}
+
+/// Where a straight piece is farthest along, near the middle one of three parameters and between the others.
+fn stationary(piece: &Piece, along: Vector, [from, near, to]: [f64; 3]) -> f64 {
+    let mut t = near;
+    for _ in 0..CUSP_STEPS {
+        let jet = piece.jet(t);
+        t -= jet.d1.dot(along) / jet.d2.dot(along);
     }
-    let [a, b] = first_derivative(piece, noise);
-    isolate(&a.combined(along.x, &b, along.y)).unwrap_or_default().iter().map(|r| r.at).collect()
+    if t > from && t < to { t } else { near }
+}
+
+/// Parameters between which a straight piece runs one way.
+struct Way {
+    from: f64,
+    to: f64,
+    rises: bool,
+}
+
+/// Appends the ways of a part of a straight piece: halves of halves run one way, or nowhere. Signs of control
+/// points say so for certain whatever the weights are, which those of a derivative would not.
+fn find_ways(part: &Piece, along: Vector, noise: f64, (from, to): (f64, f64), ways: &mut Vec<Way>) {
+    let places = || part.points().iter().map(|p| p.dot(along));
+    let (low, high) = places().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), s| (a.min(s), b.max(s)));
+    if high - low <= 4.0 * noise {
+        return;
+    }
+    let steps = || part.points().windows(2).map(|w| (w[1] - w[0]).dot(along));
+    let middle = 0.5 * (from + to);
+    let (rises, falls) = (steps().all(|s| s >= -2.0 * noise), steps().all(|s| s <= 2.0 * noise));
+    if rises || falls || middle <= from || middle >= to {
+        ways.push(Way {
+            from,
+            to,
+            rises: if rises == falls { part.end().dot(along) > part.start().dot(along) } else { rises },
+        });
+        return;
+    }
+    find_ways(&part.part(0.0, 0.5), along, noise, (from, middle), ways);
+    find_ways(&part.part(0.5, 1.0), along, noise, (middle, to), ways);
 }
 
 /// Where the squared speed vanishes: it cannot be negative, so these are double roots.
@@ -107,11 +148,13 @@ fn sub_curve(piece: &Piece, first: usize, count: usize, noise: f64) -> [Poly; 3]
     let center = piece.points()[piece.degree() / 2];
     let weights = &piece.weights()[range.clone()];
     let points = || piece.points()[range.clone()].iter().zip(weights);
-    // Weights are at most 1, so a numerator is as uncertain as its coordinate, and by a rounding.
+    let scaled = |c: f64, w: f64| (c * w, noise * w);
     [
-        Poly::new(points().map(|(p, w)| (p.x - center.x) * w), noise),
-        Poly::new(points().map(|(p, w)| (p.y - center.y) * w), noise),
-        Poly::new(weights.iter().copied(), if piece.is_rational() { f64::EPSILON } else { 0.0 }),
+        Poly::with_errors(points().map(|(p, &w)| scaled(p.x - center.x, w))),
+        Poly::with_errors(points().map(|(p, &w)| scaled(p.y - center.y, w))),
+        Poly::with_errors(
+            weights.iter().map(|&w| (w, if piece.is_rational() { WEIGHT_NOISE * w } else { 0.0 })),
+        ),
     ]
 }
 

@@ -186,11 +186,13 @@ impl Path<'_> {
             return stretch.kind == StretchKind::Straight;
         }
         let arc = Arc { start: a.place, end: b.place, bulge };
-        let distance = match stretch.kind {
-            StretchKind::Straight => Distance::ZERO,
-            _ => track.measure_arc(&arc, stretch.from.u, stretch.to.u, 0.0),
+        let (from, to) = (stretch.from.u, stretch.to.u);
+        let small = FIT_ROUNDINGS * self.curve.noise;
+        let off = match stretch.kind {
+            StretchKind::Straight => track.overrun(&arc, from, to, small),
+            _ => track.measure_arc(&arc, from, to, 0.0).bound,
         };
-        if distance.bound > FIT_ROUNDINGS * self.curve.noise || distance.bound.is_nan() {
+        if off > small || off.is_nan() {
             return false;
         }
         let next = Piecewise { arc, smooth: stretch.from.kind.is_smooth(), exact: true };
@@ -240,10 +242,13 @@ impl Piecewise {
             bulge: if (bulge.abs() - 1.0).abs() <= 8.0 * f64::EPSILON { bulge.signum() } else { bulge },
         };
         let chord = (whole.end - whole.start).length();
-        if whole.bulge.abs() > 1.0 || whole.bulge.is_nan() || b * c < 0.0 || chord <= noise {
+        let turns_back = self.arc.end_tangent().dot(next.start_tangent()) < 0.0;
+        if whole.bulge.abs() > 1.0 || whole.bulge.is_nan() || b * c < 0.0 || chord <= noise || turns_back {
             return false;
         }
-        let off = whole.distance(next.start);
+        // Middles too, as a short arc says little about the circle of a long one.
+        let places = [next.start, self.arc.middle(), next.middle()];
+        let off = places.iter().map(|&p| whole.distance(p)).fold(0.0, f64::max);
         let fits = off <= FIT_ROUNDINGS * noise;
         if fits {
             self.arc = whole;

@@ -44,12 +44,17 @@ pub(super) struct Ends {
     pub singles: [bool; 2],
     /// Whether the arc over an apex that ends there may be laid again within less.
     pub yields: [bool; 2],
+    /// Curvatures of the arcs over apices that end there.
+    pub circles: [Option<f64>; 2],
+    /// Parameters of those apices, or of the nodes.
+    pub reach: [f64; 2],
 }
 
 impl Ends {
     /// Ends without arcs over apices.
     pub fn of(nodes: [Node; 2]) -> Ends {
-        Ends { nodes, apex_arcs: [false; 2], singles: [false; 2], yields: [false; 2] }
+        let (none, reach) = ([false; 2], nodes.map(|node| node.u));
+        Ends { nodes, apex_arcs: none, singles: none, yields: none, circles: [None; 2], reach }
     }
 }
 
@@ -85,8 +90,26 @@ impl Goal {
         let error = 0.125 * self.constant * bend.slope / self.tolerance;
         let turn = bend.curvature / MAX_TURN;
         let (turn, least) = (turn * turn * turn, least * least * least);
-        bend.speed * (error * error + turn * turn + least * least).sqrt().cbrt()
+        bend.speed * cube_root((error * error + turn * turn + least * least).sqrt())
     }
+}
+
+/// Digits that a step towards a cube root starts from: a third of the exponent, with the best bias.
+const THIRD: u64 = 715_094_163 << 32;
+
+/// The cube root of a number that is not negative, to 40 bits: as good as a density needs, in a tenth of the
+/// time of the whole.
+fn cube_root(x: f64) -> f64 {
+    if !x.is_finite() {
+        return x;
+    }
+    let mut root = f64::from_bits(x.to_bits() / 3 + THIRD);
+    // Halley's method triples the digits.
+    for _ in 0..2 {
+        let cube = root * root * root;
+        root *= (cube + 2.0 * x) / (2.0 * cube + x);
+    }
+    root
 }
 
 impl Layout {
@@ -123,4 +146,19 @@ impl Layout {
 pub(super) fn first(total: f64) -> usize {
     let least = if total > MANY { 1.0 + SPARE } else { FIRST };
     ((2.0 * least * total).ceil() as usize).max(2)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cube_root_cubed_is_the_number() {
+        for x in [1e-300, 1e-9, 0.3, 1.0, 7.0, 8.0, 1e5, 1e300] {
+            assert!((cube_root(x) / x.cbrt() - 1.0).abs() < 1e-12, "{x:e}");
+        }
+        assert!(
+            cube_root(0.0) < 1e-100 && cube_root(f64::INFINITY).is_infinite() && cube_root(f64::NAN).is_nan()
+        );
+    }
 }

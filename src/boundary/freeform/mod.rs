@@ -37,6 +37,7 @@ mod drawn;
 mod ellipse;
 mod error;
 mod features;
+mod few;
 mod fit;
 mod interpolate;
 mod layout;

@@ -47,6 +47,10 @@ pub(super) fn wrong_places(cells: &[Cell], run: Run, noise: f64) -> Vec<f64> {
         if !hidden && last.replace(up) != Some(up) {
             changes += 1;
         }
+        // The pair behind the seam is the first one again, where apices are not known.
+        if run.ring && i + 2 == spans.len() {
+            continue;
+        }
         let (inside, next) = (w[0].inside(), w[1].inside());
         let certain = inside == next && w[0].up_to_end == w[0].before_end;
         let too_many = inside > 1 || next > 1;
@@ -67,6 +71,9 @@ pub(super) fn wrong_places(cells: &[Cell], run: Run, noise: f64) -> Vec<f64> {
     if wrong.is_empty() && changes.max(1) != apices.len() + 1 {
         wrong.extend(apices);
     }
+    // What is seen behind the seam of a ring is where the ring begins.
+    let (end, turn) = (run.end(), run.end() - run.at(0));
+    wrong.iter_mut().filter(|u| **u > end).for_each(|u| *u -= turn);
     wrong
 }
 

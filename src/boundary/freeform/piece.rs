@@ -10,6 +10,9 @@ pub(super) const MAX_CURVE_DEGREE: usize = 10;
 
 const LEN: usize = MAX_CURVE_DEGREE + 1;
 
+/// Where a weight is less than this part of the largest, powers of the parameter cost digits.
+const LEAST_WEIGHT: f64 = 1.0 / 16.0;
+
 /// A rational Bezier curve on 0..=1 with positive weights.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Piece {
@@ -18,6 +21,11 @@ pub(super) struct Piece {
     rational: bool,
     points: [Vector; LEN],
     weights: [f64; LEN],
+    /// Whether those are noted: of a piece of degree 3 at most with weights near to each other.
+    has_powers: bool,
+    /// Coefficients of both numerators and the denominator by powers of
+    /// the parameter.
+    cubics: [[f64; 4]; 3],
 }
 
 /// Place and derivatives by the parameter.
@@ -74,6 +82,8 @@ impl Piece {
             rational: weights.iter().any(|&w| w != weights[0]),
             points: [Vector::default(); LEN],
             weights: [1.0; LEN],
+            has_powers: false,
+            cubics: [[0.0; 4]; 3],
         };
         piece.points[..points.len()].copy_from_slice(points);
         if piece.rational {
@@ -83,6 +93,7 @@ impl Piece {
                 *to = from / largest;
             }
         }
+        piece.expand();
         piece
     }
 
@@ -125,6 +136,7 @@ impl Piece {
     /// The same piece beginning exactly at a place that its start equals to round-off.
     pub fn starting_at(mut self, start: Vector) -> Piece {
         self.points[0] = start;
+        self.expand();
         self
     }
 
@@ -133,11 +145,12 @@ impl Piece {
         for p in &mut self.points[..=self.degree] {
             *p = map(*p);
         }
+        self.expand();
     }
 
     /// Place at `t`.
     pub fn at(&self, t: f64) -> Vector {
-        if self.rational || self.degree <= 3 {
+        if self.rational || self.has_powers {
             return self.motion(t).0;
         }
         let (mut p, n) = (self.points, self.degree);
@@ -151,13 +164,15 @@ impl Piece {
 
     /// Place and first derivative at `t`.
     pub fn motion(&self, t: f64) -> (Vector, Vector) {
-        if self.degree <= 3 {
-            let [x, y, w] = self.powers(t);
+        if self.has_powers {
+            let [x, y, w] = &self.cubics;
+            let (x, y) = (risen(x, t), risen(y, t));
             if !self.rational {
-                return (vector(x[0], y[0]), vector(x[1], y[1]));
+                return (vector(x.0, y.0), vector(x.1, y.1));
             }
-            let q = vector(x[0], y[0]) / w[0];
-            return (q, (vector(x[1], y[1]) - q * w[1]) / w[0]);
+            let w = risen(w, t);
+            let q = vector(x.0, y.0) / w.0;
+            return (q, (vector(x.1, y.1) - q * w.1) / w.0);
         }
         if self.rational {
             let jet = self.jet(t);
@@ -174,7 +189,7 @@ impl Piece {
 
     /// Place and derivatives at `t`.
     pub fn jet(&self, t: f64) -> Jet {
-        let [x, y, w] = if self.degree <= 3 {
+        let [x, y, w] = if self.has_powers {
             self.powers(t).map(|c| [c[0], c[1], 2.0 * c[2], 6.0 * c[3]])
         } else {
             let Homogeneous { x, y, w } = self.homogeneous();
@@ -191,21 +206,30 @@ impl Piece {
         Jet { q, d1, d2, d3 }
     }
 
+    /// Whether [`Piece::powers`] may be asked for.
+    #[inline]
+    pub fn has_powers(&self) -> bool {
+        self.has_powers
+    }
+
     /// The coefficients of both numerators and the denominator, of degree 3 at most, by powers of the
     /// distance from parameter `t`.
     #[inline]
     pub fn powers(&self, t: f64) -> [[f64; 4]; 3] {
-        debug_assert!(self.degree <= 3);
-        let w = if self.rational {
-            cubic_powers(self.four(|_, w| w), self.degree, t)
-        } else {
-            [1.0, 0.0, 0.0, 0.0]
-        };
-        [
-            cubic_powers(self.four(|p, w| p.x * w), self.degree, t),
-            cubic_powers(self.four(|p, w| p.y * w), self.degree, t),
-            w,
-        ]
+        debug_assert!(self.has_powers);
+        let [x, y, w] = &self.cubics;
+        [shifted(x, t), shifted(y, t), if self.rational { shifted(w, t) } else { *w }]
+    }
+
+    /// Notes the coefficients by powers of the parameter.
+    fn expand(&mut self) {
+        self.has_powers = self.degree <= 3 && self.weights().iter().all(|&w| w >= LEAST_WEIGHT);
+        if self.has_powers {
+            let n = self.degree;
+            let [x, y] = [self.four(|p, w| p.x * w), self.four(|p, w| p.y * w)];
+            let w = if self.rational { powers_of(self.four(|_, w| w), n) } else { [1.0, 0.0, 0.0, 0.0] };
+            self.cubics = [powers_of(x, n), powers_of(y, n), w];
+        }
     }
 
     /// Something of the first four control points and weights.
@@ -231,6 +255,7 @@ impl Piece {
         if from > 0.0 {
             part.cut(from / to, true);
         }
+        part.expand();
         part
     }
 
@@ -263,22 +288,31 @@ struct Homogeneous {
     w: [f64; LEN],
 }
 
-/// Coefficients by powers of the distance from `t` of a polynomial in Bernstein form of degree 3 at most.
-#[inline]
-fn cubic_powers([a, b, c, d]: [f64; 4], n: usize, t: f64) -> [f64; 4] {
-    let s = 1.0 - t;
-    let (u, v) = (s * a + t * b, s * b + t * c);
+/// Coefficients by powers of a polynomial in Bernstein form of degree 3 at most.
+fn powers_of([a, b, c, d]: [f64; 4], n: usize) -> [f64; 4] {
     match n {
-        3 => {
-            let w = s * c + t * d;
-            let (l, m) = (s * u + t * v, s * v + t * w);
-            let (first, second) = (m - l, w - 2.0 * v + u);
-            [s * l + t * m, 3.0 * first, 3.0 * second, d - 3.0 * c + 3.0 * b - a]
-        }
-        2 => [s * u + t * v, 2.0 * (v - u), c - 2.0 * b + a, 0.0],
-        1 => [u, b - a, 0.0, 0.0],
+        3 => [a, 3.0 * (b - a), 3.0 * ((c - b) - (b - a)), (d - c) - 2.0 * (c - b) + (b - a)],
+        2 => [a, 2.0 * (b - a), (c - b) - (b - a), 0.0],
+        1 => [a, b - a, 0.0, 0.0],
         _ => [a, 0.0, 0.0, 0.0],
     }
+}
+
+/// Value and derivative at `t` of a cubic by powers.
+#[inline]
+fn risen([a, b, c, d]: &[f64; 4], t: f64) -> (f64, f64) {
+    let e = d * t;
+    let h = b + (c + e) * t;
+    (a + h * t, h + (c + 2.0 * e) * t)
+}
+
+/// The same cubic by powers of the distance from `t`.
+#[inline]
+fn shifted([a, b, c, d]: &[f64; 4], t: f64) -> [f64; 4] {
+    let e = d * t;
+    let (f, g) = (c + e, c + 2.0 * e);
+    let h = b + f * t;
+    [a + h * t, h + g * t, g + e, *d]
 }
 
 /// Value and first three derivatives at `t` of a polynomial in Bernstein form.

@@ -172,8 +172,10 @@ impl Plan {
             let nearest = if far(after) < far(after - 1) { after } else { after - 1 };
             // An arc too wide over an apex is what bends those beside it the wrong way.
             let before = (0..after).rev().find(|&i| run.is_apex(i));
-            let behind = (after..=n).find(|&i| run.is_apex(i));
-            let apex_arc = [before, behind].into_iter().flatten().filter(|&i| nodes[i] != At::Node);
+            let behind = (after..=n).find(|&i| run.is_apex(i) && run.at(i) > u);
+            let behind = behind.or_else(|| (1..n).find(|&i| run.ring && run.is_apex(i)));
+            let here = Some(after).filter(|&i| run.is_apex(i) && run.at(i) == u);
+            let apex_arc = [before, here, behind].into_iter().flatten().filter(|&i| nodes[i] != At::Node);
             let first = apex_arc.min_by(|&i, &j| far(i).total_cmp(&far(j)));
             let first = first.or_else(|| Some(nearest).filter(|&i| nodes[i] != At::Node));
             if let Some(i) = first {
@@ -187,7 +189,11 @@ impl Plan {
                 better = true;
                 continue;
             }
-            for i in [nearest.saturating_sub(1), nearest.min(n - 1)] {
+            let sides = match nearest {
+                i if i % n == 0 && run.ring => [n - 1, 0],
+                i => [i.saturating_sub(1), i.min(n - 1)],
+            };
+            for i in sides {
                 if care[i] + 1 < CAREFUL.len() {
                     self.care[i] = care[i] + 1;
                     better = true;
@@ -281,17 +287,39 @@ impl Laid {
         for draft in drafts {
             let (to, end) = (draft.stretches.end, draft.at[1]);
             parts.push(self.part(draft, work)?);
-            if let At::Apex(steps) = end
-                && let Some(Some(apex_arc)) = self.apex_arcs.get(&(to, steps))
-            {
-                let begin = self.cells.len();
-                self.cells.push(apex_arc.cell);
-                let cells = begin..begin + 1;
-                parts.push(Part { stretches: to..to, care: 0, at: [end; 2], cells });
+            if matches!(end, At::Apex(_)) {
+                parts.push(Part { stretches: to..to, care: 0, at: [end; 2], cells: 0..0 });
             }
         }
         self.parts = parts;
+        self.close(work);
         Some(())
+    }
+
+    /// Lays the arcs over apices between the parts on both sides, which may have moved their ends.
+    fn close(&mut self, work: &Work) {
+        let n = self.parts.len();
+        for i in 0..n {
+            let (to, At::Apex(steps)) = (self.parts[i].stretches.end, self.parts[i].at[1]) else { continue };
+            let Some(&Some(apex_arc)) = self.apex_arcs.get(&(to, steps)) else { continue };
+            if !self.parts[i].stretches.is_empty() {
+                continue;
+            }
+            let turn = if i + 1 == n { work.run.end() - work.run.at(0) } else { 0.0 };
+            let [before, after] =
+                [&self.parts[i - 1], &self.parts[(i + 1) % n]].map(|part| part.cells.clone());
+            let (before, after) = (self.cells[before].last(), self.cells[after].first());
+            let laid = match (before, after) {
+                (Some(before), Some(after)) => apex_arc.between(work.track, before, (after, turn)),
+                _ => apex_arc.cell,
+            };
+            if laid.distance.bound > work.tolerance {
+                self.lost.push(work.run.at(to));
+            }
+            let begin = self.cells.len();
+            self.cells.push(laid);
+            self.parts[i].cells = begin..begin + 1;
+        }
     }
 
     /// The parts between nodes and arcs over apices.
@@ -335,18 +363,23 @@ impl Laid {
 
     fn ends(&mut self, range: Range<usize>, at: [At; 2], work: &Work) -> Option<Ends> {
         let mut nodes = ends(work.track, &work.run.stretches[range.clone()]);
+        let mut circles = [None; 2];
+        let reach = [range.start, range.end].map(|i| work.run.at(i));
         if let At::Apex(steps) = at[0] {
             let apex_arc = self.apex_arc(range.start, steps, work)?;
             let turn = if range.start == 0 { work.run.end() - work.run.at(0) } else { 0.0 };
             nodes[0] = Node { u: apex_arc.nodes[1].u - turn, ..apex_arc.nodes[1] };
+            circles[0] = Some(apex_arc.cell.arcs[0].curvature());
         }
         if let At::Apex(steps) = at[1] {
-            nodes[1] = self.apex_arc(range.end, steps, work)?.nodes[0];
+            let apex_arc = self.apex_arc(range.end, steps, work)?;
+            nodes[1] = apex_arc.nodes[0];
+            circles[1] = Some(apex_arc.cell.arcs[0].curvature());
         }
         let apex_arcs = at.map(|at| matches!(at, At::Apex(_)));
         let singles = at.map(|at| matches!(at, At::Apex(..=LEAP)));
         let yields = at.map(|at| matches!(at, At::Apex(steps) if steps < YIELDING_STEPS));
-        Some(Ends { nodes, apex_arcs, singles, yields })
+        Some(Ends { nodes, apex_arcs, singles, yields, circles, reach })
     }
 
     /// The part laid before, if nothing has changed.

@@ -3,7 +3,7 @@
 //!
 //! **Needs** what [`super::bound`] needs, and gives the same answer where it gives one. **Guarantees** a
 //! bound that holds and is within the last of [`SLACKS`] of the largest distance. **Does not** answer for parts that
-//! turn much, for which [`super::bound`] is there.
+//! turn much and for weights of different orders, for which [`super::bound`] is there.
 //!
 //! **Method.** In the middle of the part the numerator `N` of the power (see [`super::bound`]) and its
 //! denominator `D` are polynomials of degree 6 on -1..=1. An arc with common tangents errs like a cubic
@@ -41,7 +41,7 @@ struct Local {
 /// Distance between the arc of a frame and the part of a piece between two parameters; a bound below
 /// `limit` need not be tight. `None` where it takes more to tell.
 pub(super) fn measure(frame: &Frame, piece: &Piece, (from, to): (f64, f64), limit: f64) -> Option<Distance> {
-    if piece.degree() > DEGREE {
+    if !piece.has_powers() {
         return None;
     }
     let local = Local::of(frame, piece, 0.5 * (from + to), 0.5 * (to - from));
@@ -66,7 +66,7 @@ pub(super) fn measure(frame: &Frame, piece: &Piece, (from, to): (f64, f64), limi
 /// How far the part of a piece between two parameters is to the left and to the right of an arc, as found
 /// and not proven. `None` for pieces of higher degree.
 pub(super) fn sides(frame: &Frame, piece: &Piece, (from, to): (f64, f64)) -> Option<[f64; 2]> {
-    if piece.degree() > DEGREE {
+    if !piece.has_powers() {
         return None;
     }
     let local = Local::of(frame, piece, 0.5 * (from + to), 0.5 * (to - from));
@@ -158,13 +158,13 @@ fn cubic(p: &Sextic) -> ([f64; 4], f64) {
     ([c0, c1, p2 + 2.0 * t2, p3 + 4.0 * t3], rest)
 }
 
-/// Places inside where a cubic is stationary; others are ends.
+/// Places inside where a cubic is stationary; others are the ends next to them, so that it does not
+/// matter which way the part is run.
 #[inline]
 fn stationary([_, c1, c2, c3]: &[f64; 4]) -> [f64; 2] {
     let root = (c2 * c2 - 3.0 * c1 * c3).max(0.0).sqrt();
     let q = -(c2 + root.copysign(*c2));
-    let inside = |z: f64| if z.abs() < 1.0 { z } else { 1.0 };
-    [inside(q / (3.0 * c3)), inside(c1 / q)]
+    [q / (3.0 * c3), c1 / q].map(|z| if z.is_nan() { 1.0 } else { z.clamp(-1.0, 1.0) })
 }
 
 /// Values of `n / d` at the ends and where it is stationary.

@@ -33,6 +33,9 @@ pub enum Scheme {
 /// Largest number of biarcs in one run.
 pub(super) const MAX_BIARCS: usize = 1 << 20;
 
+/// So many biarcs may be a rumor: where control points nearly coincide the density is noise.
+const TRUSTED: f64 = 4096.0;
+
 /// One biarc.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cell {
@@ -91,24 +94,38 @@ impl Fitter {
         let goal = Goal::of(scheme, tolerance);
         let halves = matches!(scheme, Scheme::Bisection | Scheme::Published);
         if !halves {
-            match self.spread.run(track, ends, &goal, out) {
+            match self.spread(track, ends, &goal, out) {
                 Err(lost) if lost.ends != [false; 2] => return Err(lost),
                 Err(_) => {}
                 Ok(()) => return Ok(()),
             }
         }
-        self.halve(track, ends.nodes, (tolerance, goal.joint), out).ok_or(Lost { ends: [false; 2] })
+        let halved = self.halve(track, ends.nodes, (&goal, MAX_BIARCS), out);
+        halved.ok_or(Lost { ends: [false; 2] })
     }
 
-    /// Halves a run until every biarc fits.
+    /// Appends biarcs of equal errors, or halves where these need far fewer.
+    fn spread(&mut self, track: &Track, ends: &Ends, goal: &Goal, out: &mut Vec<Cell>) -> Result<(), Lost> {
+        let number = self.spread.number(track, ends, goal)?;
+        if number > TRUSTED {
+            let begin = out.len();
+            if self.halve(track, ends.nodes, (goal, (0.5 * number) as usize), out).is_some() {
+                return Ok(());
+            }
+            out.truncate(begin);
+        }
+        self.spread.run(track, ends, (goal, number), out)
+    }
+
+    /// Halves a run until every biarc fits, unless that takes more than a number of them.
     fn halve(
         &mut self,
         track: &Track,
         [from, to]: [Node; 2],
-        (tolerance, joint): (f64, Joint),
+        (goal, most): (&Goal, usize),
         out: &mut Vec<Cell>,
     ) -> Option<()> {
-        let limit = out.len() + MAX_BIARCS;
+        let (tolerance, joint, limit) = (goal.tolerance, goal.joint, out.len() + most);
         self.waiting.clear();
         self.waiting.push(to);
         let mut a = from;

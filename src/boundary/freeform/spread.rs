@@ -14,13 +14,21 @@
 //! take the place of a biarc, in the middle, where its tangents are those that its neighbors want.
 
 use super::biarc::{Arc, Joint, Node};
+use super::bound::Distance;
 use super::density::{Cursor, Density};
+use super::few::few;
 use super::layout::{Ends, Goal, Layout, Lost, MANY, SPARE, first};
 use super::spiral::{Cell, MAX_BIARCS, cell};
 use super::track::{Side, Track};
 
 /// A few biarcs may fit in the end though errors say that so many more would be needed.
 const FEWER: f64 = 31.0 / 32.0;
+
+/// With so many biarcs by the density at most, a few arcs are searched for, from so many for each, in so many
+/// numbers.
+const FEW: f64 = 2.25;
+const FEWEST: f64 = 1.75;
+const TRIED: usize = 2;
 
 /// Layouts tried at most, and those with one number of arcs.
 const MAX_LAYOUTS: usize = 16;
@@ -82,6 +90,8 @@ pub(super) struct Spread {
     /// The nodes, and places of the curve halfway between them.
     nodes: Vec<Node>,
     halfway: Vec<Node>,
+    /// The arc that is alone.
+    alone: Option<Arc>,
     cells: Vec<Cell>,
     /// How much denser biarcs must be.
     growth: Vec<f64>,
@@ -103,16 +113,36 @@ impl Spread {
     pub fn check(&mut self, track: &Track, ends: &Ends, goal: &Goal) -> Result<(), Lost> {
         self.is_filled = false;
         let Some(total) = self.fill(track, ends, goal) else { return Ok(()) };
+        if total <= FEW {
+            return Ok(());
+        }
         match Layout::of(first(total), ends) {
             Some(layout) => self.slants(track, ends, goal, (layout, total)).map(|_| ()),
             None => Ok(()),
         }
     }
 
-    /// Appends biarcs from one end to the other; nothing is appended when it fails.
-    pub fn run(&mut self, track: &Track, ends: &Ends, goal: &Goal, out: &mut Vec<Cell>) -> Result<(), Lost> {
-        let total = self.fill(track, ends, goal).ok_or(Lost { ends: ends.apex_arcs })?;
+    /// How many biarcs it takes from one end to the other, about.
+    pub fn number(&mut self, track: &Track, ends: &Ends, goal: &Goal) -> Result<f64, Lost> {
+        self.fill(track, ends, goal).ok_or(Lost { ends: ends.apex_arcs })
+    }
+
+    /// Appends biarcs from one end to the other, of a known number about; nothing is appended when it fails.
+    pub fn run(
+        &mut self,
+        track: &Track,
+        ends: &Ends,
+        (goal, total): (&Goal, f64),
+        out: &mut Vec<Cell>,
+    ) -> Result<(), Lost> {
         let many = total > MANY;
+        if total <= FEW && goal.tilted {
+            let least = ((FEWEST * total).ceil() as usize).max(1);
+            let found = |arcs: usize| few(track, (ends, &self.density), (arcs, goal.tolerance), out);
+            if (least..least + TRIED).any(found) {
+                return Ok(());
+            }
+        }
         let (mut arcs, mut sweeps) = (first(total), 0);
         for _ in 0..MAX_LAYOUTS {
             let Some(layout) = Layout::of(arcs, ends) else {
@@ -125,9 +155,13 @@ impl Spread {
                 arcs += 1;
                 continue;
             }
-            self.lay(track, ends, goal, layout);
+            self.lay(track, ends, goal, layout, many);
             let steep = [0, 1].map(|end| slants[end] > 1.0 && ends.yields[end]);
-            let judged = self.judge(goal, steep, many);
+            let mut judged = self.judge(goal, steep, many);
+            if judged.fits && many {
+                self.complete(track, goal, layout);
+                judged = self.judge(goal, steep, many);
+            }
             if judged.fits {
                 out.extend_from_slice(&self.cells);
                 return Ok(());
@@ -176,27 +210,65 @@ impl Spread {
         if steep == [false; 2] { Ok(slants) } else { Err(Lost { ends: steep }) }
     }
 
-    /// Lays nodes at equal shares of the corrected density, and biarcs between.
-    fn lay(&mut self, track: &Track, ends: &Ends, goal: &Goal, layout: Layout) {
+    /// Lays nodes at equal shares of the corrected density, and biarcs between; of many only those near kinks
+    /// and at ends, as the density is right elsewhere.
+    fn lay(&mut self, track: &Track, ends: &Ends, goal: &Goal, layout: Layout, many: bool) {
         self.share();
         self.place(track, ends);
         if goal.tilted {
             self.tilt(layout.single);
         }
-        let alone = layout.single.map(|i| (i, self.single(i)));
+        self.alone = layout.single.map(|i| self.single(i));
         self.cells.clear();
         for i in 0..layout.biarcs {
-            let (a, b, middle) = (&self.nodes[i], &self.nodes[i + 1], &self.halfway[i]);
-            self.cells.push(match alone {
-                Some((single, arc)) if single == i => Cell::of_one(track, arc, [a.u, b.u], goal.tolerance),
-                _ => {
-                    let [before, after] = [a, b].map(|n| (n.place - middle.place).length());
-                    let shifted = Joint::Shifted((before - after) / (before + after));
-                    let joint = if goal.tilted { shifted } else { goal.joint };
-                    cell(track, [a, b], middle.u, joint, goal.tolerance)
-                }
-            });
+            let measured = !many || self.is_uneven(track, i);
+            let cell = if measured { self.cell(track, goal, layout, i) } else { self.unmeasured(i) };
+            self.cells.push(cell);
         }
+    }
+
+    /// Lays the biarcs that were left out.
+    fn complete(&mut self, track: &Track, goal: &Goal, layout: Layout) {
+        for i in 0..layout.biarcs {
+            if self.cells[i].distance == Distance::ZERO {
+                self.cells[i] = self.cell(track, goal, layout, i);
+            }
+        }
+    }
+
+    /// Whether the derivative of the curvature jumps in a cell or one beside it, or there is none on one side.
+    fn is_uneven(&self, track: &Track, i: usize) -> bool {
+        if i == 0 || i + 2 >= self.nodes.len() {
+            return true;
+        }
+        let (from, to) = (self.nodes[i - 1].u, self.nodes[i + 2].u);
+        let mut knot = from.floor() + 1.0;
+        while knot < to {
+            if track.has_kink(knot) {
+                return true;
+            }
+            knot += 1.0;
+        }
+        false
+    }
+
+    /// A cell without its arcs.
+    fn unmeasured(&self, i: usize) -> Cell {
+        let (a, b) = (&self.nodes[i], &self.nodes[i + 1]);
+        let none = Arc { start: a.place, end: a.place, bulge: 0.0 };
+        Cell { arcs: [none; 2], from: a.u, joint: b.u, to: b.u, distance: Distance::ZERO, sharp: false }
+    }
+
+    /// The biarc or arc alone between two nodes, with its distance from the curve.
+    fn cell(&self, track: &Track, goal: &Goal, layout: Layout, i: usize) -> Cell {
+        let (a, b, middle) = (&self.nodes[i], &self.nodes[i + 1], &self.halfway[i]);
+        if let (Some(arc), true) = (self.alone, layout.single == Some(i)) {
+            return Cell::of_one(track, arc, [a.u, b.u], goal.tolerance);
+        }
+        let [before, after] = [a, b].map(|n| (n.place - middle.place).length());
+        let shifted = Joint::Shifted((before - after) / (before + after));
+        let joint = if goal.tilted { shifted } else { goal.joint };
+        cell(track, [a, b], middle.u, joint, goal.tolerance)
     }
 
     /// One arc between two nodes, which get its tangents; those at the ends of the part keep theirs.
@@ -382,8 +454,9 @@ mod tests {
         let nodes = [track.cut_node(0.0, Side::After), track.cut_node(1.0, Side::Before)];
         let ends = Ends::of(nodes);
         let goal = Goal { tolerance: 1e-7, joint: Joint::MIDDLE, tilted: false, constant: 2.0 / 81.0 };
-        let mut cells = Vec::new();
-        Spread::default().run(&track, &ends, &goal, &mut cells).unwrap();
+        let (mut cells, mut spread) = (Vec::new(), Spread::default());
+        let total = spread.number(&track, &ends, &goal).unwrap();
+        spread.run(&track, &ends, (&goal, total), &mut cells).unwrap();
         assert!(cells.len() > 10);
         let errors: Vec<f64> = cells.iter().map(|c| c.distance.bound / goal.tolerance).collect();
         assert!(errors.iter().all(|&e| e <= 1.0 && e > 0.5), "{errors:?}");

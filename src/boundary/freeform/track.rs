@@ -33,6 +33,9 @@ pub(super) enum Side {
 /// takes over when it fails.
 const MAX_STEPS: usize = 80;
 
+/// A jump of the derivative of the curvature by this part of it matters to a biarc over it.
+const KINK: f64 = 1.0 / 64.0;
+
 impl<'a> Track<'a> {
     /// The track of some pieces.
     pub fn new(curve: &'a Pieces) -> Track<'a> {
@@ -85,6 +88,16 @@ impl<'a> Track<'a> {
         Node { u, place: self.grid.snap(place), tangent, curvature: jet.curvature() }
     }
 
+    /// Whether the derivative of the curvature jumps where two pieces meet, other than by round-off or a
+    /// little.
+    pub fn has_kink(&self, knot: f64) -> bool {
+        let slopes = [Side::Before, Side::After].map(|side| {
+            let (piece, t) = self.locate(knot, side);
+            piece.jet(t).curvature_slope()
+        });
+        (slopes[0] - slopes[1]).abs() > KINK * (slopes[0].abs() + slopes[1].abs())
+    }
+
     /// The place at a parameter.
     pub fn place(&self, u: f64) -> Vector {
         let (piece, t) = self.locate(u, Side::Before);
@@ -102,6 +115,14 @@ impl<'a> Track<'a> {
     pub fn reach(&self, place: Vector, from: f64, to: f64) -> f64 {
         let far = |r: f64, part: Piece| part.points().iter().fold(r, |r, &p| r.max((p - place).length()));
         self.parts(from, to).fold(0.0, far)
+    }
+
+    /// How far the curve between two parameters, which is straight, runs beyond the ends of a segment for
+    /// it, but for less than `small`.
+    pub fn overrun(&self, segment: &Arc, from: f64, to: f64, small: f64) -> f64 {
+        let along = (segment.end - segment.start).unit();
+        let ends = (segment.start.dot(along), segment.end.dot(along));
+        self.parts(from, to).map(|part| beyond(&part, along, ends, (small, MAX_HALVINGS))).fold(0.0, f64::max)
     }
 
     /// Length of the diagonal of the box around all control points.
@@ -216,7 +237,7 @@ impl<'a> Track<'a> {
     }
 
     /// The parameter between two others where the curve crosses the normal at a joint.
-    fn beyond(&self, joint: Vector, tangent: Vector, [from, near, to]: [f64; 3]) -> f64 {
+    pub fn beyond(&self, joint: Vector, tangent: Vector, [from, near, to]: [f64; 3]) -> f64 {
         let ahead = |u: f64| {
             let (piece, t) = self.locate(u, Side::Before);
             (piece.at(t) - joint).dot(tangent)
@@ -246,6 +267,23 @@ impl<'a> Track<'a> {
         }
         whole + t
     }
+}
+
+/// Halvings of a straight part that may run beyond the ends of its segment.
+const MAX_HALVINGS: u32 = 16;
+
+/// How far places of a part are beyond two others along a line: 0 where that is less than `small`.
+fn beyond(part: &Piece, along: Vector, ends: (f64, f64), (small, halvings): (f64, u32)) -> f64 {
+    let past = |p: &Vector| (ends.0 - p.dot(along)).max(p.dot(along) - ends.1);
+    let most = part.points().iter().map(past).fold(0.0, f64::max);
+    if most <= small {
+        return 0.0;
+    }
+    if halvings == 0 || past(&part.start()).max(past(&part.end())) > small {
+        return most;
+    }
+    let halves = [(0.0, 0.5), (0.5, 1.0)].map(|(a, b)| part.part(a, b));
+    halves.iter().map(|half| beyond(half, along, ends, (small, halvings - 1))).fold(0.0, f64::max)
 }
 
 /// Divisions of a piece, at least, in the search for a distance.
