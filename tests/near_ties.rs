@@ -57,6 +57,30 @@ fn a_cusp_that_overlaps_by_round_off_is_a_corner() {
     ]);
 }
 
+/// A wedge between two straight walls that some ten roundings part at its open end. Its angle is round-off,
+/// and it was taken for a wall that the pocket goes around.
+#[test]
+fn a_corner_is_one_however_thin_the_wedge_in_it_is() {
+    assert_right(&[
+        (
+            "wedge at the end of a triangle",
+            &[&[(-5.0, -8.99, 0.0), (5.0, -9.01, 0.0), (5.0, 9.01, 0.0), (4.999999999999936, -8.99, 0.0)]],
+        ),
+        (
+            "wall as thin as that wedge",
+            &[&[
+                (-5.0, -9.0, 0.0),
+                (5.0, -9.0, 0.0),
+                (5.0, 9.0, 0.0),
+                (5.000000000000064, -9.0, 0.0),
+                (15.0, -9.0, 0.0),
+                (15.0, 12.0, 0.0),
+                (-5.0, 12.0, 0.0),
+            ]],
+        ),
+    ]);
+}
+
 /// Two hollow arcs of nearly the same circle: a disk as large as they are touches them nearly everywhere,
 /// and its radius came with half of its digits.
 #[test]

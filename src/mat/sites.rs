@@ -364,10 +364,19 @@ fn joint_between(part: &Part, after: &Part, noise: f64) -> Joint {
         if turn > 0.0 { Joint::Convex } else { Joint::Cone }
     } else if ahead > 0.0 {
         Joint::Smooth { same_circle: false }
-    } else if bend < 0.0 {
-        // A cusp: the boundary turns back on the left of where it came, the wedge is inside.
+    } else if is_inside_of_cusp(part, after, turn, noise) {
         Joint::Convex
     } else {
         Joint::Cone
     }
+}
+
+/// Whether the boundary turns back on the left of where it came, so that the wedge is inside: told by how
+/// the sides bend, and where they do so by less than round-off, by the turn. However thin a straight wedge
+/// is, a pocket has more than round-off between the ends of its sides, so that the sign is right.
+fn is_inside_of_cusp(part: &Part, after: &Part, turn: f64, noise: f64) -> bool {
+    let bend = part.curvature + after.curvature;
+    let length = |p: &Part| p.start.point.distance(p.end.point);
+    let half = 0.5 * length(part).min(length(after));
+    if 0.5 * bend.abs() * half * half > noise { bend < 0.0 } else { turn > 0.0 }
 }
