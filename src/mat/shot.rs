@@ -31,15 +31,15 @@ const NEIGHBORS: usize = 4;
 /// Larger than any disk in the unit frame.
 const OUTSIDE: f64 = 2.0;
 
-/// The disks at the ends of all sites.
-pub(super) fn shoot_all(sites: &[Site], bvh: &Bvh) -> Vec<Shot> {
+/// The disks at the ends of all sites; `blur` is the largest angle at a joint that was taken for round-off.
+pub(super) fn shoot_all(sites: &[Site], bvh: &Bvh, blur: f64) -> Vec<Shot> {
     let mut shots = vec![Shot { radius: 0.0, site: NONE, contact: Contact::Start }; sites.len()];
     shots.par_chunks_mut(RUN).enumerate().for_each(|(run, chunk)| {
         let mut hints = Hints([NONE; 4]);
         for (i, shot) in chunk.iter_mut().enumerate() {
             let joint = (run * RUN + i) as u32;
             if sites[joint as usize].joint != Joint::Convex {
-                *shot = shoot(sites, bvh, joint, &hints);
+                *shot = shoot(sites, bvh, joint, blur, &hints);
                 if shot.contact != Contact::Whole {
                     hints.remember(shot.site);
                 }
@@ -70,12 +70,14 @@ pub(super) fn probe_at(site: &Site) -> Probe {
     }
 }
 
-fn shoot(sites: &[Site], bvh: &Bvh, joint: u32, hints: &Hints) -> Shot {
+fn shoot(sites: &[Site], bvh: &Bvh, joint: u32, blur: f64, hints: &Hints) -> Shot {
     let site = &sites[joint as usize];
     let probe = probe_at(site);
     let mut best = curvature_limit(sites, joint);
-    let osculating = (best.contact == Contact::Whole)
-        .then(|| SearchDisk { center: probe.center(best.radius), radius: best.radius });
+    let osculating = (best.contact == Contact::Whole).then(|| SearchDisk {
+        center: probe.center(best.radius),
+        radius: best.radius * (1.0 - direction_error(sites, joint, blur)),
+    });
     let counts = |i: u32| osculating.is_none_or(|disk| reaches_into(&sites[i as usize], &disk));
     let try_site = |best: &mut Shot, i: u32| -> bool {
         let (radius, contact) = touch(Span::whole(&sites[i as usize]), &probe);
@@ -124,6 +126,15 @@ fn is_better(sites: &[Site], shot: &Shot, best: &Shot) -> bool {
     }
     let error = RADIUS_ERROR * best.radius;
     shot.radius < best.radius + if own > other { error } else { -error }
+}
+
+/// Angle by which round-off may have turned the normal at a joint, and with it an osculating disk: that of
+/// the longer site there, whose ends are uncertain by so much, but no more than was seen on both sides.
+fn direction_error(sites: &[Site], joint: u32, blur: f64) -> f64 {
+    let before = &sites[joint as usize];
+    let length = |s: &Site| s.start.point.distance(s.end.point);
+    let longer = length(before).max(length(&sites[before.next as usize]));
+    (before.error / longer).min(2.0 * blur)
 }
 
 /// Whether a site reaches into a disk by more than round-off. Into one that osculates an arc other arcs of

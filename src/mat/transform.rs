@@ -126,7 +126,7 @@ type Laminated = (Sites, Bvh, Lamination, (f64, Point));
 fn laminate(pocket: &Pocket, frame: &Frame, direction: Vector) -> Result<Laminated, Point> {
     let all = Sites::of(pocket, frame, direction);
     let bvh = Bvh::sorted(&all.sites.iter().map(Site::bounds).collect::<Vec<_>>());
-    let shots = shoot_all(&all.sites, &bvh);
+    let shots = shoot_all(&all.sites, &bvh, all.blur);
     let lost =
         (0..shots.len()).find(|&i| shots[i].site == NONE && all.sites[i].joint != super::site::Joint::Convex);
     if let Some(i) = lost {
