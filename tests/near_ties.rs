@@ -113,6 +113,81 @@ fn disks_nearly_as_large_as_an_arc_have_all_their_digits() {
     ]);
 }
 
+/// Two short arcs where a circle was mended: their direction is known to half of the digits, and the disk of
+/// the circle, turned by that, was held back by the rest of the circle.
+#[test]
+fn a_short_arc_does_not_turn_the_disk_of_its_circle() {
+    assert_right(&[
+        (
+            "a millionth of the circle",
+            &[&[
+                (10.0, 0.0, 0.9999990513434442),
+                (9.000800105241069e-12, 9.486570056616017e-6, 4.7432850280327475e-7),
+                (0.0, 0.0, 4.742784694314758e-7),
+                (9.00346464050017e-12, -9.485569388623105e-6, 0.9999990514435111),
+            ]],
+        ),
+        (
+            "a thousandth of a circle moved from afar",
+            &[&[
+                (-817.9431750050428, 3.458661693143995, 0.0004228505206247063),
+                (-817.9460999993607, 0.0, 0.0004228505206335821),
+                (-817.9431750050435, -3.458661693216527, 0.9991546564127087),
+                (3271.753899999894, 0.0, 0.9991546564127265),
+            ]],
+        ),
+    ]);
+}
+
+/// A round island in a round pocket, which overlap by twenty roundings: at the place where they touch, their
+/// directions differ by more than those of arcs drawn through it.
+#[test]
+fn an_island_that_touches_within_round_off_is_part_of_the_wall() {
+    assert_right(&[(
+        "circle in a circle",
+        &[
+            &[
+                (20.0, 10.0, 1.0),
+                (0.0, 10.0, 0.4142136064901367),
+                (10.00000150625, 1.3685815850032606e-13, 0.4142135182560547),
+            ],
+            &[
+                (12.000001205, 2.0, -0.4142135182560547),
+                (10.00000150625, 1.3685815850032606e-13, -0.4142136064901367),
+                (8.000001205, 2.0, -1.0),
+            ],
+        ],
+    )]);
+}
+
+/// Between a segment and an arc that is nearly one: its center lies so far away that places beside it are
+/// not to be told from there.
+#[test]
+fn levels_in_a_hair_thin_lens_are_right() {
+    assert_right(&[
+        ("below an arc", &[&[(12.0, 6.0, 6e-9), (4.0, 6.0, 0.0)]]),
+        (
+            "above a segment",
+            &[&[(-3.0, -4.154727601938028, 0.0), (0.0, -4.154727601938028, 3.1225881624571956e-7)]],
+        ),
+    ]);
+}
+
+/// Islands a few units apart in a pocket of 2e9: levels far from them are circles that hardly cross.
+#[test]
+fn levels_of_circles_that_hardly_cross_are_right() {
+    let island = |y: f64| [(999999958.0, y, -1.0), (999999962.0, y, 0.0)];
+    assert_right(&[(
+        "three islands",
+        &[
+            &[(2e9, 1e9, 1.0), (0.0, 1e9, 1.0)],
+            &island(999999988.0),
+            &island(999999997.0),
+            &island(1000000006.0),
+        ],
+    )]);
+}
+
 /// A flat corner and two walls at one distance: three of the four hardly tell where the disk is.
 #[test]
 fn a_tie_at_a_flat_corner_is_told_by_the_walls() {
