@@ -118,13 +118,18 @@ fn is_better(sites: &[Site], shot: &Shot, best: &Shot) -> bool {
     if best.site == NONE || best.contact == Contact::Whole {
         return shot.radius < best.radius;
     }
+    let error = RADIUS_ERROR * best.radius;
+    if shot.radius >= best.radius + error {
+        return false;
+    }
     let (here, there) = (&sites[shot.site as usize], &sites[best.site as usize]);
-    let are_neighbors = here.vertices.iter().any(|v| there.vertices.contains(v));
-    let (own, other) = (precedence(here, shot.contact), precedence(there, best.contact));
+    let are_neighbors = here.vertices.iter().any(|v| there.vertices.contains(v))
+        || is_end_of(here, shot.contact, there)
+        || is_end_of(there, best.contact, here);
+    let (own, other) = (precedence(sites, here, shot.contact), precedence(sites, there, best.contact));
     if !are_neighbors || own == other {
         return shot.radius < best.radius;
     }
-    let error = RADIUS_ERROR * best.radius;
     shot.radius < best.radius + if own > other { error } else { -error }
 }
 
@@ -143,13 +148,26 @@ fn reaches_into(site: &Site, disk: &SearchDisk) -> bool {
     site.distance(disk.center) < disk.radius - site.error
 }
 
-/// Which of two contacts in nearly one place tells where it really is.
-fn precedence(site: &Site, contact: Contact) -> u32 {
-    match contact {
-        Contact::Inside if !site.is_vertex => 2,
-        Contact::Inside => 1,
-        _ => 0,
-    }
+/// Whether a contact at the end of a site is where another site ends, as where loops touch.
+fn is_end_of(site: &Site, contact: Contact, other: &Site) -> bool {
+    let end = match contact {
+        Contact::Start => site.start.point,
+        Contact::End => site.end.point,
+        Contact::Inside | Contact::Whole => return false,
+    };
+    end == other.start.point || end == other.end.point
+}
+
+/// Which of two contacts in nearly one place tells where it really is. A corner of the pocket is none: where
+/// loops touch there, the disk lies in the sector of another loop.
+fn precedence(sites: &[Site], site: &Site, contact: Contact) -> u32 {
+    let joint = match contact {
+        Contact::Inside if !site.is_vertex => return 3,
+        Contact::Inside | Contact::Whole => return 2,
+        Contact::Start => sites[site.prev as usize].joint,
+        Contact::End => site.joint,
+    };
+    u32::from(joint != Joint::Convex)
 }
 
 /// The largest disk that the sites tangent to it at the joint allow.
