@@ -160,6 +160,66 @@ fn an_island_that_touches_within_round_off_is_part_of_the_wall() {
     )]);
 }
 
+/// Where loops touch, a corner of the one sector and a straight wall of the other are at the same place: a
+/// disk that touches there touches the wall.
+#[test]
+fn a_disk_touches_the_sector_that_it_lies_in() {
+    assert_right(&[(
+        "half circle between a corner and a straight wall",
+        &[
+            &[
+                (4.0, 2.0, 0.4),
+                (4.0, 4.0, 1.0),
+                (2.0, 3.0, 0.0),
+                (0.0, 4.0, 0.0),
+                (1.0, 2.0, 0.0),
+                (0.0, 0.0, 0.0),
+            ],
+            &[(4.0, 2.0, 0.0), (2.0, 3.0, -1.0)],
+        ],
+    )]);
+}
+
+/// An island that divides the pocket, and touches in places that are no corner on one side: the axis has two
+/// parts. One of them may be a single disk.
+#[test]
+fn a_pocket_that_is_divided_at_straight_walls_has_an_axis_in_parts() {
+    assert_right(&[
+        (
+            "arch on a rectangle",
+            &[
+                &[
+                    (0.0, 0.0, 0.0),
+                    (4.0, 0.0, 0.0),
+                    (4.0, 2.0, 0.0),
+                    (3.0, 2.0, 0.0),
+                    (4.0, 5.0, 0.0),
+                    (0.0, 5.0, 0.0),
+                    (1.0, 2.0, 0.0),
+                    (0.0, 2.0, 0.0),
+                ],
+                &[(3.0, 2.0, 0.0), (1.0, 2.0, 0.0), (1.5, 4.0, 0.0), (2.5, 4.0, 0.0)],
+            ],
+        ),
+        (
+            "circle beside a crescent",
+            &[
+                &[
+                    (2.0811391430054162, 1.2071067811865475, 1.0),
+                    (0.08113914300541625, 2.2071067811865475, 0.414214),
+                    (1.0811391430054162, 0.20710678118654746, 1.0),
+                ],
+                &[
+                    (2.0811391430054162, 1.2071067811865475, 1.0),
+                    (1.0811391430054162, 0.20710678118654746, 0.0),
+                    (0.08113914300541625, 1.2071067811865475, 0.0),
+                    (1.0811391430054162, 2.2071067811865475, 0.0),
+                ],
+            ],
+        ),
+    ]);
+}
+
 /// Between a segment and an arc that is nearly one: its center lies so far away that places beside it are
 /// not to be told from there.
 #[test]

@@ -74,11 +74,12 @@ impl Sites {
     ///
     /// It runs around every hole, and through a place where loops touch from one sector of the pocket
     /// into another, but only between those that are corners: in a sector of half a turn or more, the
-    /// place is no end of the axis, and an island that touches there is as good as a part of the wall.
-    pub fn encircled(&self) -> usize {
+    /// place is no end of the axis, and an island that touches there is as good as a part of the wall: it may
+    /// divide the axis into `parts`.
+    pub fn encircled(&self, parts: usize) -> usize {
         let holes = self.rings.iter().filter(|ring| ring.link.is_some()).count();
         let united = self.touching.iter().filter(|(joint, first)| joint != first).count();
-        (1 + holes + united).saturating_sub(self.rings.len() - holes)
+        (parts + holes + united).saturating_sub(self.rings.len() - holes)
     }
 
     fn add_ring(&mut self, parts: &[Part], direction: Option<Vector>) {
