@@ -113,9 +113,12 @@ fn ray(away: &Element, element: usize, arrives: bool) -> Ray {
 /// place where two loops touch is on both but for what a pocket may overlap by, and so are directions there.
 fn sort_clockwise(rays: &mut [Ray], noise: f64) {
     rays.sort_by(|a, b| b.angle.total_cmp(&a.angle));
-    let error = |ray: &Ray| TOUCHING_ULPS * noise / ray.length;
+    let apart = TOUCHING_ULPS * noise;
+    // Of rays that leave a hair apart and bend over each other, too, the place where they meet again counts.
     let tangent = |a: &Ray, b: &Ray| {
-        a.direction.dot(b.direction) > 0.0 && a.direction.cross(b.direction).abs() <= error(a) + error(b)
+        let (sine, bend) = (a.direction.cross(b.direction).abs(), b.curvature - a.curvature);
+        a.direction.dot(b.direction) > 0.0
+            && (sine <= apart / a.length + apart / b.length || sine * sine <= 2.0 * apart * bend)
     };
     // Begin at a gap between directions, so that no bundle of tangent rays is cut by the turn's end.
     let n = rays.len();
