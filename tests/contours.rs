@@ -110,6 +110,20 @@ fn a_center_line_divides_nothing() {
     assert_eq!(kinds(&plain), ["open", "open"]);
 }
 
+/// The crescent has a corner of no angle there, one side of which leaves it a hair on the wrong side.
+#[test]
+fn a_triangle_at_the_tip_of_a_crescent_is_beside_it() {
+    let quarter = -0.41421356240209145;
+    let crescent = ArcSpline::closed([
+        (3.0, 2.0, 0.0),
+        (2.0, 3.0, 1.0),
+        (2.0, 1.0, quarter),
+        (1.9999999999505, 2.0000000000495, quarter),
+    ]);
+    let triangle = ArcSpline::closed([(4.0, 1.0, 0.0), (3.0, 1.0, 0.0), (3.0, 2.0, 0.0)]);
+    assert_eq!(summary(&found(&[triangle, crescent])), [(5, 0), (18, 0)]);
+}
+
 #[test]
 fn an_island_on_a_wall_is_a_bite_out_of_the_pocket() {
     let bite = found(&[rectangle(0.0, 0.0, 10.0, 10.0), rectangle(0.0, 4.0, 3.0, 2.0)]);

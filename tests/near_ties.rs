@@ -57,6 +57,30 @@ fn a_cusp_that_overlaps_by_round_off_is_a_corner() {
     ]);
 }
 
+/// A wedge between two straight walls that some ten roundings part at its open end. Its angle is round-off,
+/// and it was taken for a wall that the pocket goes around.
+#[test]
+fn a_corner_is_one_however_thin_the_wedge_in_it_is() {
+    assert_right(&[
+        (
+            "wedge at the end of a triangle",
+            &[&[(-5.0, -8.99, 0.0), (5.0, -9.01, 0.0), (5.0, 9.01, 0.0), (4.999999999999936, -8.99, 0.0)]],
+        ),
+        (
+            "wall as thin as that wedge",
+            &[&[
+                (-5.0, -9.0, 0.0),
+                (5.0, -9.0, 0.0),
+                (5.0, 9.0, 0.0),
+                (5.000000000000064, -9.0, 0.0),
+                (15.0, -9.0, 0.0),
+                (15.0, 12.0, 0.0),
+                (-5.0, 12.0, 0.0),
+            ]],
+        ),
+    ]);
+}
+
 /// Two hollow arcs of nearly the same circle: a disk as large as they are touches them nearly everywhere,
 /// and its radius came with half of its digits.
 #[test]
@@ -87,6 +111,141 @@ fn disks_nearly_as_large_as_an_arc_have_all_their_digits() {
             ]],
         ),
     ]);
+}
+
+/// Two short arcs where a circle was mended: their direction is known to half of the digits, and the disk of
+/// the circle, turned by that, was held back by the rest of the circle.
+#[test]
+fn a_short_arc_does_not_turn_the_disk_of_its_circle() {
+    assert_right(&[
+        (
+            "a millionth of the circle",
+            &[&[
+                (10.0, 0.0, 0.9999990513434442),
+                (9.000800105241069e-12, 9.486570056616017e-6, 4.7432850280327475e-7),
+                (0.0, 0.0, 4.742784694314758e-7),
+                (9.00346464050017e-12, -9.485569388623105e-6, 0.9999990514435111),
+            ]],
+        ),
+        (
+            "a thousandth of a circle moved from afar",
+            &[&[
+                (-817.9431750050428, 3.458661693143995, 0.0004228505206247063),
+                (-817.9460999993607, 0.0, 0.0004228505206335821),
+                (-817.9431750050435, -3.458661693216527, 0.9991546564127087),
+                (3271.753899999894, 0.0, 0.9991546564127265),
+            ]],
+        ),
+    ]);
+}
+
+/// A round island in a round pocket, which overlap by twenty roundings: at the place where they touch, their
+/// directions differ by more than those of arcs drawn through it.
+#[test]
+fn an_island_that_touches_within_round_off_is_part_of_the_wall() {
+    assert_right(&[(
+        "circle in a circle",
+        &[
+            &[
+                (20.0, 10.0, 1.0),
+                (0.0, 10.0, 0.4142136064901367),
+                (10.00000150625, 1.3685815850032606e-13, 0.4142135182560547),
+            ],
+            &[
+                (12.000001205, 2.0, -0.4142135182560547),
+                (10.00000150625, 1.3685815850032606e-13, -0.4142136064901367),
+                (8.000001205, 2.0, -1.0),
+            ],
+        ],
+    )]);
+}
+
+/// Where loops touch, a corner of the one sector and a straight wall of the other are at the same place: a
+/// disk that touches there touches the wall.
+#[test]
+fn a_disk_touches_the_sector_that_it_lies_in() {
+    assert_right(&[(
+        "half circle between a corner and a straight wall",
+        &[
+            &[
+                (4.0, 2.0, 0.4),
+                (4.0, 4.0, 1.0),
+                (2.0, 3.0, 0.0),
+                (0.0, 4.0, 0.0),
+                (1.0, 2.0, 0.0),
+                (0.0, 0.0, 0.0),
+            ],
+            &[(4.0, 2.0, 0.0), (2.0, 3.0, -1.0)],
+        ],
+    )]);
+}
+
+/// An island that divides the pocket, and touches in places that are no corner on one side: the axis has two
+/// parts. One of them may be a single disk.
+#[test]
+fn a_pocket_that_is_divided_at_straight_walls_has_an_axis_in_parts() {
+    assert_right(&[
+        (
+            "arch on a rectangle",
+            &[
+                &[
+                    (0.0, 0.0, 0.0),
+                    (4.0, 0.0, 0.0),
+                    (4.0, 2.0, 0.0),
+                    (3.0, 2.0, 0.0),
+                    (4.0, 5.0, 0.0),
+                    (0.0, 5.0, 0.0),
+                    (1.0, 2.0, 0.0),
+                    (0.0, 2.0, 0.0),
+                ],
+                &[(3.0, 2.0, 0.0), (1.0, 2.0, 0.0), (1.5, 4.0, 0.0), (2.5, 4.0, 0.0)],
+            ],
+        ),
+        (
+            "circle beside a crescent",
+            &[
+                &[
+                    (2.0811391430054162, 1.2071067811865475, 1.0),
+                    (0.08113914300541625, 2.2071067811865475, 0.414214),
+                    (1.0811391430054162, 0.20710678118654746, 1.0),
+                ],
+                &[
+                    (2.0811391430054162, 1.2071067811865475, 1.0),
+                    (1.0811391430054162, 0.20710678118654746, 0.0),
+                    (0.08113914300541625, 1.2071067811865475, 0.0),
+                    (1.0811391430054162, 2.2071067811865475, 0.0),
+                ],
+            ],
+        ),
+    ]);
+}
+
+/// Between a segment and an arc that is nearly one: its center lies so far away that places beside it are
+/// not to be told from there.
+#[test]
+fn levels_in_a_hair_thin_lens_are_right() {
+    assert_right(&[
+        ("below an arc", &[&[(12.0, 6.0, 6e-9), (4.0, 6.0, 0.0)]]),
+        (
+            "above a segment",
+            &[&[(-3.0, -4.154727601938028, 0.0), (0.0, -4.154727601938028, 3.1225881624571956e-7)]],
+        ),
+    ]);
+}
+
+/// Islands a few units apart in a pocket of 2e9: levels far from them are circles that hardly cross.
+#[test]
+fn levels_of_circles_that_hardly_cross_are_right() {
+    let island = |y: f64| [(999999958.0, y, -1.0), (999999962.0, y, 0.0)];
+    assert_right(&[(
+        "three islands",
+        &[
+            &[(2e9, 1e9, 1.0), (0.0, 1e9, 1.0)],
+            &island(999999988.0),
+            &island(999999997.0),
+            &island(1000000006.0),
+        ],
+    )]);
 }
 
 /// A flat corner and two walls at one distance: three of the four hardly tell where the disk is.

@@ -40,7 +40,7 @@ impl Fan {
         let mut fan = Fan { order: Vec::new(), angles: Vec::new(), ambiguous: false };
         let mut from = 0;
         for to in 1..=rays.len() {
-            let ends = to == rays.len() || !rays[to].is_hidden_by(&rays[to - 1]);
+            let ends = to == rays.len() || !rays[to].is_hidden_by(&rays[to - 1], same);
             if ends {
                 fan.ambiguous |= sort_by_side(&mut rays[from..to], elements, same);
                 from = to;
@@ -59,19 +59,28 @@ struct Ray {
     angle: f64,
     /// Round-off of the angle: both ends of the chord may be off by the round-off of places.
     blur: f64,
+    curvature: f64,
 }
+
+/// Differences of angles above this are seen, whatever the lengths.
+const HIDDEN_ANGLE: f64 = 0.1;
 
 impl Ray {
     fn new(id: usize, element: &Element, same: f64) -> Ray {
         let angle = element.tangents().0.angle();
         let angle = if angle.is_finite() { angle } else { 0.0 };
-        Ray { id, angle, blur: 2.0 * same / element.chord().length() }
+        Ray { id, angle, blur: 2.0 * same / element.chord().length(), curvature: element.curvature() }
     }
 
-    fn is_hidden_by(&self, before: &Ray) -> bool {
-        let blur = self.blur + before.blur;
+    /// Whether it cannot be told from the ray on its right, by `angle`, that it leaves to the left of it. If
+    /// that one bends over to it, they meet again at `2 angle / bend`, with up to `angle^2 / (2 bend)`
+    /// between them.
+    fn is_hidden_by(&self, before: &Ray, same: f64) -> bool {
+        let (blur, bend) = (self.blur + before.blur, before.curvature - self.curvature);
+        let angle = self.angle - before.angle;
+        let meets_again = bend > 0.0 && angle * angle <= 4.0 * same * bend;
         // A chord of no length has no direction; nothing may be hidden by it but itself.
-        blur.is_finite() && (self.angle - before.angle) <= blur.min(0.1)
+        blur.is_finite() && angle <= HIDDEN_ANGLE && (angle <= blur || meets_again)
     }
 }
 
@@ -123,6 +132,7 @@ fn leaves_to(a: &Element, b: &Element, same: f64) -> Option<Ordering> {
 mod tests {
     use super::*;
     use crate::geom::point;
+    use std::f64::consts::PI;
 
     fn to(x: f64, y: f64, bulge: f64) -> Element {
         Element::arc(point(0.0, 0.0), point(x, y), bulge)
@@ -148,6 +158,16 @@ mod tests {
         let start = fan.order.iter().position(|&i| i == 4).expect("all are in it");
         let turned: Vec<_> = (1..5).map(|i| fan.order[(start + i) % 5]).collect();
         assert_eq!(turned, [3, 1, 2, 0]);
+        assert!(!fan.ambiguous);
+    }
+
+    #[test]
+    fn an_arc_that_bends_over_a_ray_within_round_off_leaves_on_its_far_side() {
+        // It leaves a hair to the right, is back after 1e-10, and ends far to the left.
+        let arc = |bulge: f64| to(0.5f64.sqrt(), 0.5f64.sqrt(), bulge);
+        let fan = Fan::new(&[arc((PI / 8.0).tan() + 5e-11), to(1.0, 0.0, 0.0), to(-1.0, 0.0, 0.0)], 1e-15);
+        let start = fan.order.iter().position(|&i| i == 2).expect("all are in it");
+        assert_eq!([fan.order[(start + 1) % 3], fan.order[(start + 2) % 3]], [1, 0]);
         assert!(!fan.ambiguous);
     }
 

@@ -77,7 +77,7 @@ impl Rays {
                     return;
                 }
                 let Some(x) = piece.hit(p) else { return };
-                if best.is_none_or(|(bx, b)| x > bx || (x == bx && piece.is_right_of(&b, p.y))) {
+                if best.is_none_or(|(bx, b)| piece.is_hit_before(x, &b, bx, p.y)) {
                     *best = Some((x, piece));
                 }
             },
@@ -168,6 +168,28 @@ impl Piece {
         within(best.unwrap_or(0.5 * (low + high)))
     }
 
+    /// Of two pieces that the ray hits at abscissas `x` and `bx`, whether this one is the first. Where they
+    /// meet nearby, the wedge between them may be thinner than an ulp: seen from where they meet it is not.
+    fn is_hit_before(&self, x: f64, other: &Piece, bx: f64, y: f64) -> bool {
+        let (x, bx) = self.common_end(other).map_or((x, bx), |end| {
+            let seen = |p: &Piece| p.seen_from(end).abscissa(y - end.y);
+            (seen(self), seen(other))
+        });
+        x > bx || (x == bx && self.is_right_of(other, y))
+    }
+
+    fn common_end(&self, other: &Piece) -> Option<Point> {
+        let ends = [other.element.start, other.element.end];
+        [self.element.start, self.element.end].into_iter().find(|e| ends.contains(e))
+    }
+
+    /// The piece as it leaves one of its ends, in coordinates from there.
+    fn seen_from(&self, end: Point) -> Piece {
+        let e = if self.element.start == end { self.element } else { self.element.reversed() };
+        let far = point(e.end.x - end.x, e.end.y - end.y);
+        Piece { element: Element { start: Point::default(), end: far, ..e }, ..*self }
+    }
+
     /// Of two pieces that the ray hits in the same place, whether this one is farther right below.
     fn is_right_of(&self, other: &Piece, y: f64) -> bool {
         let bottom = |p: &Piece| p.element.start.y.min(p.element.end.y);
@@ -217,6 +239,19 @@ mod tests {
         let mut hits = 0;
         rays.all(turned(point(-9.0 * left, -9.0 * down)), |_| hits += 1);
         assert_eq!(hits, 4);
+    }
+
+    /// The wedge is thinner than an ulp where the ray passes it.
+    #[test]
+    fn a_ray_past_a_sharp_corner_hits_its_near_side_first() {
+        let far = 481_461.0;
+        let wedge = ArcSpline::closed([(-far, 481_460.595, 0.0), (far, 481_460.5853, 0.0), (-far, far, 0.0)]);
+        let rays = Rays::new([(0, &wedge)].into_iter());
+        for step in 1..100 {
+            let below = turned(point(far, 481_460.5853 - 1e-6 * f64::from(step)));
+            let hit = rays.first(below, |_| false);
+            assert_eq!(hit, Some(Hit { owner: 0, from_left: false }), "{step}");
+        }
     }
 
     #[test]

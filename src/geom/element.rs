@@ -4,7 +4,7 @@
 //! curvature, never from the center: an arc may be as good as straight, and a center far away
 //! would cost all digits.
 
-use super::{Bounds, Point, Vector};
+use super::{Bounds, Point, Vector, vector};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
@@ -231,16 +231,16 @@ impl Element {
         let mut bounds = Bounds::around([self.start, self.end]);
         if self.bulge != 0.0 && !self.turns_within_a_quadrant() {
             let (n0, _) = self.normals();
-            let sweep = self.sweep();
-            let (center, radius) = self.center().expect("an arc has a center");
-            for quarter in 0..4 {
-                let out = Vector::from_angle(f64::from(quarter) * 0.5 * PI);
+            let (sweep, curvature) = (self.sweep(), self.curvature());
+            for out in [vector(1.0, 0.0), vector(0.0, 1.0), vector(-1.0, 0.0), vector(0.0, -1.0)] {
                 // The extreme place in direction `out` has the normal -out on a left turn.
-                let turn = n0.angle_to(if sweep > 0.0 { -out } else { out });
+                let normal = if sweep > 0.0 { -out } else { out };
+                let turn = n0.angle_to(normal);
                 let turn =
                     if sweep > 0.0 { turn.rem_euclid(2.0 * PI) } else { -(-turn).rem_euclid(2.0 * PI) };
                 if turn / sweep < 1.0 {
-                    bounds = bounds.including(center + out * radius);
+                    // From the start: the center of a flat arc is far away, and so are its digits.
+                    bounds = bounds.including(self.start + out * (versine(n0, normal) / curvature.abs()));
                 }
             }
         }
@@ -284,6 +284,12 @@ impl Element {
     }
 }
 
+/// One less the cosine of the angle between two unit vectors; small ones keep their digits.
+fn versine(a: Vector, b: Vector) -> f64 {
+    let (sin, cos) = (a.cross(b), a.dot(b));
+    if cos > 0.0 { sin * sin / (1.0 + cos) } else { 1.0 - cos }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -311,6 +317,14 @@ mod tests {
         assert!(near(half.area(point(0.0, 0.0)), PI / 2.0));
         let b = half.bounds();
         assert!(near(b.max.y, 1.0) && near(b.min.y, 0.0) && near(b.max.x, 1.0));
+    }
+
+    #[test]
+    fn the_box_of_a_flat_arc_is_as_deep_as_its_bow() {
+        let flat = Element::arc(point(12.0, 6.0), point(4.0, 6.0), 6e-9);
+        let b = flat.bounds();
+        assert!((b.max.y - 6.000000024).abs() <= 4.0 * f64::EPSILON);
+        assert_eq!((b.min, b.max.x), (point(4.0, 6.0), 12.0));
     }
 
     #[test]

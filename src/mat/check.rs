@@ -23,7 +23,8 @@ const NEAR: usize = 256;
 
 impl Mat {
     /// Holds the axis against its boundary: it is connected and V - E = 1 - islands (but for islands that
-    /// touch others or the wall where one side is no corner: around these it does not run); its edges lie
+    /// touch others or the wall where one side is no corner: around these it does not run, and may end on
+    /// either side); its edges lie
     /// along the whole boundary in its order, and consecutive ones meet in a disk; every disk touches
     /// the sites it should, in the direction of their normals, and contains no boundary (at the
     /// vertices and in the middle of each edge); the radius is monotone along edges.
@@ -153,13 +154,19 @@ impl Mat {
     fn touches(&self) -> Result<Vec<Touch>, Mismatch> {
         let pieces = &self.graph.pieces;
         let mut walk = Walk { seen: vec![false; pieces.len()], touches: Vec::new(), sites: 0, sides: 0 };
-        for first in 0..pieces.len() as u32 {
-            let BoundaryPiece { piece, next, edge } = pieces[first as usize];
-            // What stands for the way over a link is no piece. A walk begins at an edge, unless the
-            // pocket is one disk and has none.
-            let begins = next != NONE && (edge != NONE || self.graph.disks.len() == 1);
-            if begins && !walk.seen[first as usize] && self.walk_ring(first, &mut walk).is_none() {
-                return Err(Mismatch::Boundary { at: self.frame.leave(piece.from.point) });
+        // What stands for the way over a link is no piece. A ring without edges is one disk.
+        let count = pieces.len() as u32;
+        let rings = |first: &u32| pieces[*first as usize].next != NONE;
+        let with_edges = (0..count).filter_map(|first| Some((first, self.disks_of(first)?[0])));
+        for (first, disk) in with_edges.filter(|(first, _)| rings(first)) {
+            self.walk_ring(first, disk, &mut walk)?;
+        }
+        let mut lone = self.graph.lone_disks().into_iter();
+        for first in (0..count).filter(rings) {
+            if !walk.seen[first as usize]
+                && let Some(disk) = lone.next()
+            {
+                self.walk_ring(first, disk, &mut walk)?;
             }
         }
         if walk.sites == self.sites.len() && walk.sides == 2 * self.graph.edges.len() {
@@ -170,9 +177,15 @@ impl Mat {
         Err(Mismatch::Boundary { at: self.frame.leave(at) })
     }
 
+    /// Walks around a ring that begins in a disk, unless it was walked around.
+    fn walk_ring(&self, first: u32, begin: u32, walk: &mut Walk) -> Result<(), Mismatch> {
+        let at = || self.frame.leave(self.graph.pieces[first as usize].piece.from.point);
+        let goes_on = walk.seen[first as usize] || self.goes_around(first, begin, walk).is_some();
+        goes_on.then_some(()).ok_or_else(|| Mismatch::Boundary { at: at() })
+    }
+
     /// Walks around one ring; `None` where it does not go on as it should.
-    fn walk_ring(&self, first: u32, walk: &mut Walk) -> Option<()> {
-        let begin = self.disks_of(first).map_or(0, |ends| ends[0]);
+    fn goes_around(&self, first: u32, begin: u32, walk: &mut Walk) -> Option<()> {
         let (mut at, mut disk) = (first, begin);
         while !walk.seen[at as usize] {
             walk.seen[at as usize] = true;
@@ -217,10 +230,10 @@ impl Mat {
     fn check_topology(&self) -> Result<(), Mismatch> {
         let (vertices, edges) = (self.graph.disks.len(), self.graph.edges.len());
         let components = components(&self.graph);
-        if components != 1 {
+        if components != self.parts {
             return Err(Mismatch::Components { components });
         }
-        if vertices as i64 - edges as i64 != 1 - self.islands as i64 {
+        if vertices as i64 - edges as i64 != self.parts as i64 - self.islands as i64 {
             return Err(Mismatch::Euler { vertices, edges, islands: self.islands });
         }
         Ok(())

@@ -79,6 +79,13 @@ impl Graph {
         }
     }
 
+    /// Disks that are a whole part of the pocket, without an edge, in the order of their rings.
+    pub(super) fn lone_disks(&self) -> Vec<u32> {
+        let mut is_lone = vec![true; self.disks.len()];
+        self.edges.iter().flat_map(|e| e.disks).for_each(|d| is_lone[d as usize] = false);
+        (0..self.disks.len() as u32).filter(|&d| is_lone[d as usize]).collect()
+    }
+
     pub(super) fn add_disk(&mut self, disk: UnitDisk) -> u32 {
         self.disks.push(disk);
         self.disks.len() as u32 - 1

@@ -20,7 +20,9 @@ use super::shot::Shot;
 use super::site::{Foot, Joint, NONE, Site};
 use super::sites::Sites;
 use super::touch::{Contact, foot_of};
+use super::union::Sets;
 use crate::geom::Point;
+use std::collections::HashMap;
 
 /// Where a joint disk touches a site.
 #[derive(Clone, Copy, Debug)]
@@ -390,6 +392,22 @@ impl Lamination {
             }
         }
         self.visits.iter().map(|v| leaves[v.item as usize]).collect()
+    }
+
+    /// How many parts the axis has: one for each component of the pocket, but that the axis goes on from
+    /// one to the other through a place where corners of both touch.
+    pub fn parts(&self, all: &Sites) -> usize {
+        let mut sets = Sets::singles(self.rows.len());
+        let (mut parts, mut row_at) = (self.rows.len(), HashMap::new());
+        let walks = (0u32..).zip(&self.rows).filter(|_| self.rows.len() > 1);
+        for (row, visits) in walks {
+            for visit in &self.visits[visits.start as usize..visits.end as usize] {
+                if let Some(&place) = all.touching.get(&visit.item) {
+                    parts -= usize::from(sets.unite(row, *row_at.entry(place).or_insert(row)));
+                }
+            }
+        }
+        parts
     }
 
     /// Number of joints and contacts.

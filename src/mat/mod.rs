@@ -1,9 +1,10 @@
 //! Medial axis transform of a [`Pocket`]: the centers of all maximal disks, with their radii.
 //!
 //! **Needs** a pocket of segments and arcs as [`Pocket`] describes it.
-//! **Guarantees** a connected graph with one cycle per island; both footpoints of every disk, and
-//! nothing of the boundary inside it, to round-off of the size ([`Mat::check`] measures it); a
-//! radius that is monotone along every edge; the same bytes for any number of threads.
+//! **Guarantees** a connected graph with one cycle per island (in parts where islands divide the
+//! pocket); both footpoints of every disk, and nothing of the boundary inside it, to round-off of the
+//! size ([`Mat::check`] measures it); a radius that is monotone along every edge; the same bytes for
+//! any number of threads.
 //! **Does not** prune: a small bump in the drawing is a small branch here.
 //!
 //! **Method**, the *contact lamination*: maximal disks at all joints of the boundary, one more for

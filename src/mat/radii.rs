@@ -74,7 +74,7 @@ impl Radii {
 fn rings(graph: &Graph) -> Vec<(u32, f64)> {
     let mut seen = vec![false; graph.pieces.len()];
     let mut rings = Vec::new();
-    let everywhere = graph.disks.first().map_or(0.0, |d| d.radius);
+    let mut lone = graph.lone_disks().into_iter().map(|d| graph.disks[d as usize].radius);
     for first in 0..graph.pieces.len() as u32 {
         // What stands for a crossing of a link is no piece; nothing leads to it.
         if seen[first as usize] || graph.pieces[first as usize].next == NONE {
@@ -90,8 +90,8 @@ fn rings(graph: &Graph) -> Vec<(u32, f64)> {
             }
             at = piece.next;
         }
-        // A ring without edges is all contact arc: the pocket is one disk.
-        rings.push((first, if least.is_finite() { least } else { everywhere }));
+        // A ring without edges is all contact arc: the pocket, or a part of it, is one disk.
+        rings.push((first, if least.is_finite() { least } else { lone.next().unwrap_or(0.0) }));
     }
     rings
 }

@@ -31,15 +31,15 @@ const NEIGHBORS: usize = 4;
 /// Larger than any disk in the unit frame.
 const OUTSIDE: f64 = 2.0;
 
-/// The disks at the ends of all sites.
-pub(super) fn shoot_all(sites: &[Site], bvh: &Bvh) -> Vec<Shot> {
+/// The disks at the ends of all sites; `blur` is the largest angle at a joint that was taken for round-off.
+pub(super) fn shoot_all(sites: &[Site], bvh: &Bvh, blur: f64) -> Vec<Shot> {
     let mut shots = vec![Shot { radius: 0.0, site: NONE, contact: Contact::Start }; sites.len()];
     shots.par_chunks_mut(RUN).enumerate().for_each(|(run, chunk)| {
         let mut hints = Hints([NONE; 4]);
         for (i, shot) in chunk.iter_mut().enumerate() {
             let joint = (run * RUN + i) as u32;
             if sites[joint as usize].joint != Joint::Convex {
-                *shot = shoot(sites, bvh, joint, &hints);
+                *shot = shoot(sites, bvh, joint, blur, &hints);
                 if shot.contact != Contact::Whole {
                     hints.remember(shot.site);
                 }
@@ -70,12 +70,14 @@ pub(super) fn probe_at(site: &Site) -> Probe {
     }
 }
 
-fn shoot(sites: &[Site], bvh: &Bvh, joint: u32, hints: &Hints) -> Shot {
+fn shoot(sites: &[Site], bvh: &Bvh, joint: u32, blur: f64, hints: &Hints) -> Shot {
     let site = &sites[joint as usize];
     let probe = probe_at(site);
     let mut best = curvature_limit(sites, joint);
-    let osculating = (best.contact == Contact::Whole)
-        .then(|| SearchDisk { center: probe.center(best.radius), radius: best.radius });
+    let osculating = (best.contact == Contact::Whole).then(|| SearchDisk {
+        center: probe.center(best.radius),
+        radius: best.radius * (1.0 - direction_error(sites, joint, blur)),
+    });
     let counts = |i: u32| osculating.is_none_or(|disk| reaches_into(&sites[i as usize], &disk));
     let try_site = |best: &mut Shot, i: u32| -> bool {
         let (radius, contact) = touch(Span::whole(&sites[i as usize]), &probe);
@@ -116,14 +118,28 @@ fn is_better(sites: &[Site], shot: &Shot, best: &Shot) -> bool {
     if best.site == NONE || best.contact == Contact::Whole {
         return shot.radius < best.radius;
     }
+    let error = RADIUS_ERROR * best.radius;
+    if shot.radius >= best.radius + error {
+        return false;
+    }
     let (here, there) = (&sites[shot.site as usize], &sites[best.site as usize]);
-    let are_neighbors = here.vertices.iter().any(|v| there.vertices.contains(v));
-    let (own, other) = (precedence(here, shot.contact), precedence(there, best.contact));
+    let are_neighbors = here.vertices.iter().any(|v| there.vertices.contains(v))
+        || is_end_of(here, shot.contact, there)
+        || is_end_of(there, best.contact, here);
+    let (own, other) = (precedence(sites, here, shot.contact), precedence(sites, there, best.contact));
     if !are_neighbors || own == other {
         return shot.radius < best.radius;
     }
-    let error = RADIUS_ERROR * best.radius;
     shot.radius < best.radius + if own > other { error } else { -error }
+}
+
+/// Angle by which round-off may have turned the normal at a joint, and with it an osculating disk: that of
+/// the longer site there, whose ends are uncertain by so much, but no more than was seen on both sides.
+fn direction_error(sites: &[Site], joint: u32, blur: f64) -> f64 {
+    let before = &sites[joint as usize];
+    let length = |s: &Site| s.start.point.distance(s.end.point);
+    let longer = length(before).max(length(&sites[before.next as usize]));
+    (before.error / longer).min(2.0 * blur)
 }
 
 /// Whether a site reaches into a disk by more than round-off. Into one that osculates an arc other arcs of
@@ -132,13 +148,26 @@ fn reaches_into(site: &Site, disk: &SearchDisk) -> bool {
     site.distance(disk.center) < disk.radius - site.error
 }
 
-/// Which of two contacts in nearly one place tells where it really is.
-fn precedence(site: &Site, contact: Contact) -> u32 {
-    match contact {
-        Contact::Inside if !site.is_vertex => 2,
-        Contact::Inside => 1,
-        _ => 0,
-    }
+/// Whether a contact at the end of a site is where another site ends, as where loops touch.
+fn is_end_of(site: &Site, contact: Contact, other: &Site) -> bool {
+    let end = match contact {
+        Contact::Start => site.start.point,
+        Contact::End => site.end.point,
+        Contact::Inside | Contact::Whole => return false,
+    };
+    end == other.start.point || end == other.end.point
+}
+
+/// Which of two contacts in nearly one place tells where it really is. A corner of the pocket is none: where
+/// loops touch there, the disk lies in the sector of another loop.
+fn precedence(sites: &[Site], site: &Site, contact: Contact) -> u32 {
+    let joint = match contact {
+        Contact::Inside if !site.is_vertex => return 3,
+        Contact::Inside | Contact::Whole => return 2,
+        Contact::Start => sites[site.prev as usize].joint,
+        Contact::End => site.joint,
+    };
+    u32::from(joint != Joint::Convex)
 }
 
 /// The largest disk that the sites tangent to it at the joint allow.

@@ -74,11 +74,12 @@ impl Sites {
     ///
     /// It runs around every hole, and through a place where loops touch from one sector of the pocket
     /// into another, but only between those that are corners: in a sector of half a turn or more, the
-    /// place is no end of the axis, and an island that touches there is as good as a part of the wall.
-    pub fn encircled(&self) -> usize {
+    /// place is no end of the axis, and an island that touches there is as good as a part of the wall: it may
+    /// divide the axis into `parts`.
+    pub fn encircled(&self, parts: usize) -> usize {
         let holes = self.rings.iter().filter(|ring| ring.link.is_some()).count();
         let united = self.touching.iter().filter(|(joint, first)| joint != first).count();
-        (1 + holes + united).saturating_sub(self.rings.len() - holes)
+        (parts + holes + united).saturating_sub(self.rings.len() - holes)
     }
 
     fn add_ring(&mut self, parts: &[Part], direction: Option<Vector>) {
@@ -364,10 +365,19 @@ fn joint_between(part: &Part, after: &Part, noise: f64) -> Joint {
         if turn > 0.0 { Joint::Convex } else { Joint::Cone }
     } else if ahead > 0.0 {
         Joint::Smooth { same_circle: false }
-    } else if bend < 0.0 {
-        // A cusp: the boundary turns back on the left of where it came, the wedge is inside.
+    } else if is_inside_of_cusp(part, after, turn, noise) {
         Joint::Convex
     } else {
         Joint::Cone
     }
+}
+
+/// Whether the boundary turns back on the left of where it came, so that the wedge is inside: told by how
+/// the sides bend, and where they do so by less than round-off, by the turn. However thin a straight wedge
+/// is, a pocket has more than round-off between the ends of its sides, so that the sign is right.
+fn is_inside_of_cusp(part: &Part, after: &Part, turn: f64, noise: f64) -> bool {
+    let bend = part.curvature + after.curvature;
+    let length = |p: &Part| p.start.point.distance(p.end.point);
+    let half = 0.5 * length(part).min(length(after));
+    if 0.5 * bend.abs() * half * half > noise { bend < 0.0 } else { turn > 0.0 }
 }

@@ -9,6 +9,7 @@
 //! [`Pocket`]: crate::Pocket
 
 use super::frame::Frame;
+use crate::boundary::TOUCHING_ULPS;
 use crate::geom::{ArcSpline, Element, Point, Vector};
 
 /// A drawn element in the unit frame.
@@ -72,6 +73,8 @@ struct Ray {
     angle: f64,
     /// Curvature to the left, going away.
     curvature: f64,
+    /// Length of the chord.
+    length: f64,
     element: usize,
     arrives: bool,
 }
@@ -80,15 +83,10 @@ struct Ray {
 fn turn_into_sectors(elements: &[Drawn], starting: &[usize], prev: &[usize], next: &mut [usize], noise: f64) {
     let mut rays = Vec::with_capacity(2 * starting.len());
     for &out in starting {
-        let e = &elements[out].element;
-        rays.push(ray(e.tangents().0, e.curvature(), out, false));
-        let e = &elements[prev[out]].element;
-        rays.push(ray(-e.tangents().1, -e.curvature(), prev[out], true));
+        rays.push(ray(&elements[out].element, out, false));
+        rays.push(ray(&elements[prev[out]].element.reversed(), prev[out], true));
     }
-    sort_clockwise(&mut rays, |ray| {
-        let length = elements[ray.element].element.chord().length();
-        TANGENT_ROUNDINGS * noise / length
-    });
+    sort_clockwise(&mut rays, noise);
     let n = rays.len();
     let sectors: Vec<(usize, usize)> = (0..n)
         .filter(|&i| rays[i].arrives && !rays[(i + 1) % n].arrives)
@@ -106,15 +104,21 @@ fn turn_into_sectors(elements: &[Drawn], starting: &[usize], prev: &[usize], nex
 /// its unit vector and its turn by half the sweep.
 pub(super) const TANGENT_ROUNDINGS: f64 = 8.0;
 
-fn ray(direction: Vector, curvature: f64, element: usize, arrives: bool) -> Ray {
-    Ray { direction, angle: direction.angle(), curvature, element, arrives }
+fn ray(away: &Element, element: usize, arrives: bool) -> Ray {
+    let (direction, length) = (away.tangents().0, away.chord().length());
+    Ray { direction, angle: direction.angle(), curvature: away.curvature(), length, element, arrives }
 }
 
-/// Clockwise by direction; rays of one direction (to round-off) by curvature, the leftmost first.
-fn sort_clockwise(rays: &mut [Ray], error: impl Fn(&Ray) -> f64) {
+/// Clockwise by direction; rays of one direction by how far to the left they get, the leftmost first. The
+/// place where two loops touch is on both but for what a pocket may overlap by, and so are directions there.
+fn sort_clockwise(rays: &mut [Ray], noise: f64) {
     rays.sort_by(|a, b| b.angle.total_cmp(&a.angle));
+    let apart = TOUCHING_ULPS * noise;
+    // Of rays that leave a hair apart and bend over each other, too, the place where they meet again counts.
     let tangent = |a: &Ray, b: &Ray| {
-        a.direction.dot(b.direction) > 0.0 && a.direction.cross(b.direction).abs() <= error(a) + error(b)
+        let (sine, bend) = (a.direction.cross(b.direction).abs(), b.curvature - a.curvature);
+        a.direction.dot(b.direction) > 0.0
+            && (sine <= apart / a.length + apart / b.length || sine * sine <= 2.0 * apart * bend)
     };
     // Begin at a gap between directions, so that no bundle of tangent rays is cut by the turn's end.
     let n = rays.len();
@@ -124,10 +128,18 @@ fn sort_clockwise(rays: &mut [Ray], error: impl Fn(&Ray) -> f64) {
     let mut first = 0;
     for i in 1..=n {
         if i == n || !tangent(&rays[i - 1], &rays[i]) {
-            rays[first..i].sort_by(|a, b| b.curvature.total_cmp(&a.curvature));
+            sort_bundle(&mut rays[first..i]);
             first = i;
         }
     }
+}
+
+/// Rays of nearly one direction, the leftmost first: where half of the shortest is passed.
+fn sort_bundle(rays: &mut [Ray]) {
+    let half = 0.5 * rays.iter().map(|r| r.length).fold(f64::INFINITY, f64::min);
+    let ahead = rays[0].direction;
+    let left = |r: &Ray| ahead.cross(r.direction) + 0.5 * half * r.curvature;
+    rays.sort_by(|a, b| left(b).total_cmp(&left(a)));
 }
 
 /// The closed loops that `next` describes, in the order of their first elements.

@@ -28,6 +28,8 @@ pub struct Mat {
     pub(super) kinds: Kinds,
     /// Islands that the axis runs around, see [`Sites::encircled`].
     pub(super) islands: usize,
+    /// Parts of the axis, see [`Lamination::parts`].
+    pub(super) parts: usize,
     /// Largest angle at a joint that was taken for round-off.
     pub(super) blur: f64,
     radii: OnceLock<Radii>,
@@ -48,7 +50,7 @@ pub struct Counts {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Mismatch {
-    /// The axis is not connected.
+    /// The axis falls apart where the pocket does not.
     #[error("the axis has {components} components")]
     Components {
         /// How many.
@@ -126,7 +128,7 @@ type Laminated = (Sites, Bvh, Lamination, (f64, Point));
 fn laminate(pocket: &Pocket, frame: &Frame, direction: Vector) -> Result<Laminated, Point> {
     let all = Sites::of(pocket, frame, direction);
     let bvh = Bvh::sorted(&all.sites.iter().map(Site::bounds).collect::<Vec<_>>());
-    let shots = shoot_all(&all.sites, &bvh);
+    let shots = shoot_all(&all.sites, &bvh, all.blur);
     let lost =
         (0..shots.len()).find(|&i| shots[i].site == NONE && all.sites[i].joint != super::site::Joint::Convex);
     if let Some(i) = lost {
@@ -140,17 +142,19 @@ fn laminate(pocket: &Pocket, frame: &Frame, direction: Vector) -> Result<Laminat
 
 impl Mat {
     pub(super) fn build(frame: Frame, all: Sites, bvh: Bvh, map: Lamination) -> Mat {
+        let parts = map.parts(&all);
         let mut graph = Graph::of(&all.sites, map, DISK_ROUNDINGS * frame.noise);
         graph.contract();
-        Mat::of_graph(frame, all, bvh, graph)
+        Mat::of_graph(frame, all, bvh, graph, parts)
     }
 
-    /// The transform whose vertices and edges are those of a graph of contracted edges.
-    pub(super) fn of_graph(frame: Frame, all: Sites, bvh: Bvh, mut graph: Graph) -> Mat {
-        let islands = all.encircled();
+    /// The transform whose vertices and edges are those of a graph of contracted edges in so many parts.
+    pub(super) fn of_graph(frame: Frame, all: Sites, bvh: Bvh, mut graph: Graph, parts: usize) -> Mat {
+        let islands = all.encircled(parts);
         graph.split_at_extrema(&all.sites);
         let kinds = Kinds::of(&graph);
-        Mat { frame, sites: all.sites, bvh, graph, kinds, islands, blur: all.blur, radii: OnceLock::new() }
+        let (sites, blur, radii) = (all.sites, all.blur, OnceLock::new());
+        Mat { frame, sites, bvh, graph, kinds, islands, parts, blur, radii }
     }
 
     /// The index by radius, made when the first level asks for it.

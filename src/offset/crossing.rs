@@ -88,7 +88,13 @@ impl Tracer<'_> {
             let [(e0, n0), (e1, n1)] = now;
             let det = n0.cross(n1);
             let step = vector((e0 * n1.y - e1 * n0.y) / det, (e1 * n0.x - e0 * n1.x) / det);
-            let next = c + step;
+            let mut next = c + step;
+            if step.length_squared() > self.d * worst(&now) {
+                // A step so long, between circles that hardly cross, leads away from both by more than they
+                // are off: back to one of them.
+                let (distance, normal) = sites[0].carrier_distance(next);
+                next = next + normal * (self.d - distance);
+            }
             let after = residuals(next);
             let converges = worst(&after) < 0.5 * worst(&now) && self.may_hold(edge, next);
             if !converges {

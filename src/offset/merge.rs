@@ -16,6 +16,7 @@
 
 use crate::mat::{Disk, Mat, Sets};
 use serde::{Deserialize, Serialize};
+use std::cmp::Ordering;
 
 /// A connected part of what is farther than `d` from the boundary, for all `d` from [`from`](Part::from)
 /// up to [`to`](Part::to): over that range its loops change their shape and not their number, but for
@@ -42,7 +43,7 @@ pub struct Part {
 /// What becomes of a pocket, level by level; [`Mat::levels`] makes it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MergeTree {
-    /// The parts; children before their parents, the whole pocket last.
+    /// The parts; children before their parents, the whole pocket last (or what islands divide it into).
     pub parts: Vec<Part>,
     /// Distances at which the number of loops changes, falling, and the number below each.
     loops: Vec<(f64, usize)>,
@@ -121,7 +122,9 @@ impl MergeTree {
 
     /// A largest disk in the pocket: the largest tool that fits.
     pub fn largest_disk(&self) -> Disk {
-        self.parts.last().expect("a pocket is a part").peak
+        let whole = self.parts.iter().filter(|p| p.parent.is_none()).map(|p| p.peak);
+        // Of equal ones the last, that of the part which begins last.
+        whole.max_by(|a, b| a.radius.total_cmp(&b.radius)).expect("a pocket is a part")
     }
 }
 
@@ -157,6 +160,7 @@ impl<'a> Sweep<'a> {
                 closing.push(a);
             }
         }
+        unite_against_the_order(&mut same, &mut up, &mut closing, radius);
         closing.iter().for_each(|&v| cycles[same.find(v) as usize] += 1);
         let plateau: Vec<u32> = (0..n as u32).map(|v| same.find(v)).collect();
         for (low, high) in &mut up {
@@ -173,7 +177,7 @@ impl<'a> Sweep<'a> {
         let radius = |v: u32| self.mat.graph.disks[v as usize].radius;
         let mut order: Vec<u32> =
             (0..self.part.len() as u32).filter(|&v| self.is_plateau[v as usize]).collect();
-        order.sort_by(|&a, &b| radius(b).total_cmp(&radius(a)).then(a.cmp(&b)));
+        order.sort_by(|&a, &b| sweep_order(radius, a, b));
         let mut loops = 0;
         for v in order {
             let before = loops;
@@ -229,6 +233,34 @@ impl<'a> Sweep<'a> {
         let (to, holes) = (disk.radius, Vec::new());
         self.tree.parts.push(Part { from: 0.0, to, peak, neck, parent: None, children, holes });
         index
+    }
+}
+
+/// Order of the sweep: the larger radius first.
+fn sweep_order(radius: impl Fn(u32) -> f64, a: u32, b: u32) -> Ordering {
+    radius(b).total_cmp(&radius(a)).then(a.cmp(&b))
+}
+
+/// Makes plateaus one where an edge leads up from one that comes before the other in the sweep. The radii
+/// of a plateau differ by round-off from vertex to vertex, and in a sliver as thin as that from end to end.
+fn unite_against_the_order(
+    same: &mut Sets,
+    up: &mut Vec<(u32, u32)>,
+    closing: &mut Vec<u32>,
+    radius: impl Fn(u32) -> f64,
+) {
+    let mut changed = true;
+    while changed {
+        let count = up.len();
+        up.retain(|&(low, high)| {
+            let (a, b) = (same.find(low), same.find(high));
+            let is_up = a != b && sweep_order(&radius, b, a).is_lt();
+            if !is_up && !same.unite(a, b) {
+                closing.push(low);
+            }
+            is_up
+        });
+        changed = up.len() < count;
     }
 }
 
@@ -325,5 +357,17 @@ mod tests {
         let tree = tree(vec![ArcSpline::circle(point(-3.0, 7.0), 2.5)]);
         assert_eq!((tree.parts.len(), tree.splits().len(), tree.loops_at(2.4)), (1, 0, 1));
         assert_eq!(tree.largest_disk().radius, 2.5);
+    }
+
+    #[test]
+    fn plateaus_that_lead_up_to_smaller_ones_are_one() {
+        let radii = [3.0, 2.0, 2.5, 4.0];
+        let mut same = Sets::singles(4);
+        same.unite(0, 1);
+        // The plateau of 0 and 1 is known by the larger radius, and 2 is above its other end.
+        let (mut up, mut closing) = (vec![(1, 2), (0, 3), (2, 3)], Vec::new());
+        unite_against_the_order(&mut same, &mut up, &mut closing, |v| radii[v as usize]);
+        assert_eq!((same.find(2), same.find(3)), (0, 3));
+        assert_eq!((up, closing), (vec![(0, 3), (2, 3)], vec![]));
     }
 }

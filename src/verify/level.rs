@@ -187,7 +187,12 @@ impl Judge<'_> {
         if findings.iter().all(|f| f.grows <= 0.0 && f.falls <= 0.0) {
             return;
         }
-        if let Some(f) = findings.iter().find(|f| f.grows < 0.0 && f.falls > 0.0) {
+        let is_reversed = |(e, f): &(Element, &Finding)| {
+            // Where circles hardly cross, round-off of the crossing folds the loop: what it passes three
+            // times it passes once, in the other direction.
+            f.grows < 0.0 && f.falls > 0.0 && self.passes(e) != -1
+        };
+        if let Some((_, f)) = spline.elements().zip(findings).find(is_reversed) {
             add(FaultKind::Reversed, f.beside, report);
             return;
         }
@@ -196,13 +201,18 @@ impl Judge<'_> {
         let places = spline.elements().zip(findings).filter(|(_, f)| clear(f));
         let place =
             places.max_by(|a, b| a.0.chord().length_squared().total_cmp(&b.0.chord().length_squared()));
-        if let Some((e, _)) = place {
-            let (at, n) = (e.midpoint(), e.normal_at(0.5) * self.aside);
-            // Once through one loop; how many others are around does not matter, as one may be missing.
-            if self.offsets.winding(at + n) - self.offsets.winding(at - n) != 1 {
-                add(FaultKind::Overlapping, at, report);
-            }
+        if let Some((e, _)) = place
+            && self.passes(&e) != 1
+        {
+            add(FaultKind::Overlapping, e.midpoint(), report);
         }
+    }
+
+    /// How often loops pass the middle of an element, those that run against it counted negative. How many
+    /// others are around does not matter, as one may be missing.
+    fn passes(&self, e: &Element) -> i32 {
+        let (at, n) = (e.midpoint(), e.normal_at(0.5) * self.aside);
+        self.offsets.winding(at + n) - self.offsets.winding(at - n)
     }
 
     /// Looks at the places of one element.

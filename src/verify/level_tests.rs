@@ -252,3 +252,23 @@ fn outward_offsets_are_judged_around_a_part_and_in_its_holes() {
     let inside = [rectangle(1.0, 1.0, 9.0, 9.0)];
     assert!(kinds(&outward(&boundary, 1.0, &inside)).contains(&FaultKind::Outside));
 }
+
+/// Round-off of a crossing between curves that hardly cross makes a loop run back over itself.
+#[test]
+fn a_fold_thinner_than_round_off_is_no_fault() {
+    let plate = rectangle(0.0, 0.0, 10.0, 10.0);
+    let folded = |by: f64| {
+        ArcSpline::closed([
+            (1.0, 1.0, 0.0),
+            (6.0, 1.0, 0.0),
+            (4.0, 1.0 + by, 0.0),
+            (9.0, 1.0, 0.0),
+            (9.0, 9.0, 0.0),
+            (1.0, 9.0, 0.0),
+        ])
+    };
+    let report = level([&plate], 1.0, &[folded(1e-13)]);
+    assert!(report.is_right(), "{report:?}");
+    assert_eq!(kinds(&level([&plate], 1.0, &[folded(1e-13).reversed()])), [FaultKind::Reversed]);
+    assert!(kinds(&level([&plate], 1.0, &[folded(1e-3)])).contains(&FaultKind::Distance));
+}

@@ -43,7 +43,7 @@ impl Pocket {
         })?;
         let graph = division.conquer();
         let bvh = Bvh::sorted(&all.sites.iter().map(Site::bounds).collect::<Vec<_>>());
-        Ok(Mat::of_graph(frame, all, bvh, graph))
+        Ok(Mat::of_graph(frame, all, bvh, graph, 1))
     }
 }
 

@@ -61,7 +61,7 @@ fn built(pocket: &Pocket, meddle: impl FnOnce(&mut Sites, &mut [Shot])) -> Optio
     let frame = Frame::around(&pocket.bounds());
     let mut all = Sites::of(pocket, &frame, Vector::from_angle(2.4));
     let bvh = Bvh::sorted(&all.sites.iter().map(Site::bounds).collect::<Vec<_>>());
-    let mut shots = shoot_all(&all.sites, &bvh);
+    let mut shots = shoot_all(&all.sites, &bvh, all.blur);
     meddle(&mut all, &mut shots);
     let map = Lamination::of(&all, &shots)?;
     Some(Mat::build(frame, all, bvh, map))
