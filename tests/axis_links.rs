@@ -94,8 +94,12 @@ fn with_slots_a_corridor_is_cut_through_and_that_is_told() {
     keeps_its_distance(&pocket, &plain, &path);
     assert_eq!(path.totals.retracts, 1);
     let own = &path.pockets[0];
-    assert!(own.slots == 1 && (40.0..120.0).contains(&own.slot_length), "{}", own.slot_length);
-    assert!(own.full_width_length > own.slot_length);
+    assert!(
+        own.amounts.slots == 1 && (40.0..120.0).contains(&own.amounts.slot_length),
+        "{}",
+        own.amounts.slot_length
+    );
+    assert!(own.amounts.full_width_length > own.amounts.slot_length);
 }
 
 #[test]

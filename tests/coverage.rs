@@ -126,7 +126,7 @@ fn levels_alone_leave_crests_a_tool_apart() {
         let places = reachable(&mat, 6.0, &mut Random::new(1));
         assert!(farthest(&places, &loops) > 6.2, "levels alone would do");
         assert!(farthest(&places, &cuts(&path)) <= 6.0 * (1.0 + ROUND_OFF));
-        assert!(own.crests > 0 && own.crest_length > 0.0);
+        assert!(own.amounts.crests > 0 && own.amounts.crest_length > 0.0);
     }
 }
 
@@ -136,7 +136,7 @@ fn a_crest_between_parallel_walls_is_one_straight_pass_and_in_a_disk_its_center(
     let [_, disk, slot] = simple();
     let crests = |mat: &Mat, step: f64| {
         let path = job(12.0, step, Start::Inside).path(std::slice::from_ref(mat)).unwrap();
-        (path.pockets[0].crests, path.pockets[0].crest_length)
+        (path.pockets[0].amounts.crests, path.pockets[0].amounts.crest_length)
     };
     // At 10.8 from 6 on: the next level would be 16.8; the axis runs at 15, 9 from the pass.
     let (count, length) = crests(&slot, 0.9);
@@ -147,8 +147,8 @@ fn a_crest_between_parallel_walls_is_one_straight_pass_and_in_a_disk_its_center(
     assert_eq!(crests(&disk, 11.0 / 12.0).0, 0);
     // At 14 - 0.05 of a tool of 14: levels at 7 and then beyond 20.
     let path = job(14.0, 1.0, Start::Inside).path(std::slice::from_ref(&disk)).unwrap();
-    assert_eq!((path.pockets[0].crests, path.pockets[0].levels.len()), (1, 1));
-    assert!((path.pockets[0].crest_length - 2.0 * 13.0).abs() < 1e-9);
+    assert_eq!((path.pockets[0].amounts.crests, path.pockets[0].levels.len()), (1, 1));
+    assert!((path.pockets[0].amounts.crest_length - 2.0 * 13.0).abs() < 1e-9);
 }
 
 #[test]
@@ -156,7 +156,7 @@ fn at_half_the_tool_and_less_nothing_is_added() {
     for mat in simple() {
         for share in [0.1, 0.3, 0.5] {
             let path = job(12.0, share, Start::Inside).path(std::slice::from_ref(&mat)).unwrap();
-            assert_eq!(path.pockets[0].crests, 0);
+            assert_eq!(path.pockets[0].amounts.crests, 0);
         }
     }
 }

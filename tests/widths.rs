@@ -31,14 +31,14 @@ fn straight_links(mat: &Mat, path: &Path) -> f64 {
 /// Passes cut at full width, at each of two heights.
 fn full(mat: &Mat, path: &Path) -> f64 {
     let own = &path.pockets[0];
-    0.5 * (own.full_width_length - own.entry_length - straight_links(mat, path))
+    0.5 * (own.amounts.full_width_length - own.amounts.entry_length - straight_links(mat, path))
 }
 
 #[test]
 fn at_the_corners_of_a_rectangle_neighbors_are_farther_apart_than_the_step() {
     let path = path(&rectangle(), &job());
     let own = &path.pockets[0];
-    assert!((own.largest_step - 2.4 * 2f64.sqrt()).abs() < 1e-9, "{}", own.largest_step);
+    assert!((own.amounts.largest_step - 2.4 * 2f64.sqrt()).abs() < 1e-9, "{}", own.amounts.largest_step);
 }
 
 #[test]
@@ -46,8 +46,8 @@ fn between_straight_walls_passes_lie_apart_across_the_axis() {
     // Half circles at both ends: levels at 3 and 5.4, the axis at 7.
     let slot = ArcSpline::closed([(0.0, 0.0, 0.0), (50.0, 0.0, 1.0), (50.0, 14.0, 0.0), (0.0, 14.0, 1.0)]);
     let own = &path(&mat(vec![slot]), &job()).pockets[0];
-    assert!((own.largest_step - 2.0 * (7.0 - 5.4)).abs() < 1e-9, "{}", own.largest_step);
-    assert!((own.largest_step_at.unwrap().y - 7.0).abs() < 1e-9);
+    assert!((own.amounts.largest_step - 2.0 * (7.0 - 5.4)).abs() < 1e-9, "{}", own.amounts.largest_step);
+    assert!((own.amounts.largest_step_at.unwrap().y - 7.0).abs() < 1e-9);
 }
 
 #[test]
@@ -87,11 +87,14 @@ fn an_entry_is_as_long_as_its_slope_and_counts_as_full_width() {
     let path = path(&rectangle(), &job());
     let own = &path.pockets[0];
     let least = 2.0 / 3f64.to_radians().sin();
-    assert!((own.entry_length / least - 1.0).abs() < 1e-9, "{}", own.entry_length);
+    assert!((own.amounts.entry_length / least - 1.0).abs() < 1e-9, "{}", own.amounts.entry_length);
     // Seven links at each height, of which those that bend are longer than the step.
-    assert!(own.link_length > 2.0 * 7.0 * 2.4 && own.link_length < 2.0 * 7.0 * 2.4 * 2.5);
+    assert!(own.amounts.link_length > 2.0 * 7.0 * 2.4 && own.amounts.link_length < 2.0 * 7.0 * 2.4 * 2.5);
     let straight = straight_links(&rectangle(), &path);
-    assert!(own.full_width_length > own.entry_length + straight && straight < own.link_length);
+    assert!(
+        own.amounts.full_width_length > own.amounts.entry_length + straight
+            && straight < own.amounts.link_length
+    );
 }
 
 #[test]

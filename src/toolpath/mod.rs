@@ -18,6 +18,7 @@
 //! Finishing passes are met and left on arcs (`lead`). How wide is cut is known from the axis (`width`),
 //! and where it is more than the step the feed may be less (`pace`).
 
+mod amounts;
 mod approach;
 mod ascent;
 mod course;
@@ -47,6 +48,7 @@ mod trim;
 mod warning;
 mod width;
 
+pub use amounts::Amounts;
 pub use cutter::Totals;
 pub use job::{Direction, Entry, Job, Order, Start, Strategy};
 pub use moves::{Move, Point3};

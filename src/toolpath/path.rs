@@ -1,8 +1,9 @@
 //! From the axes of the pockets to one path.
 
+use super::amounts::Amounts;
 use super::cutter::Totals;
 use super::job::MAX_HEIGHTS;
-use super::plan::{Amounts, MAX_MOVES, Planner, Prepared};
+use super::plan::{MAX_MOVES, Planner, Prepared};
 use super::rest::{Rest, rest};
 use super::roads::Roads;
 use super::route::route;
@@ -45,26 +46,9 @@ pub struct PocketPath {
     pub moves: Vec<Range<usize>>,
     /// Loops and ridges cut, counted once for each height.
     pub passes: usize,
-    /// Passes along parts of the axis, for what stands between levels more than half the tool apart;
-    /// counted once for each height.
-    pub crests: usize,
-    /// Their length, the ways there and back included.
-    pub crest_length: f64,
-    /// Length of helices, ramps and plunges down into the stock.
-    pub entry_length: f64,
-    /// Length of links at depth, and of leads onto finishing passes and off them.
-    pub link_length: f64,
-    /// Links through stock instead of retracts, at all heights.
-    pub slots: usize,
-    /// Length of their parts that cut stock, as wide as the tool.
-    pub slot_length: f64,
-    /// Length of cuts as wide as the tool: entries, first passes, the first side of narrow parts, and
-    /// straight links. Measured on the axis, rather too long than too short.
-    pub full_width_length: f64,
-    /// Largest distance between neighboring passes, across the axis too; at most the tool diameter.
-    pub largest_step: f64,
-    /// A place halfway between two such passes.
-    pub largest_step_at: Option<Point>,
+    /// What is cut besides, and how wide.
+    #[serde(flatten)]
+    pub amounts: Amounts,
     /// As often as the tool needs to be lifted: at every height once for each peak of the radius that
     /// the tool reaches, and as often for finishing passes, but once less as they begin at depth.
     pub most_retracts: usize,
@@ -94,18 +78,10 @@ impl PocketPath {
         planner.cut(pocket, heights)?;
         planner.cutter.leave();
         self.passes = pocket.passes();
-        self.take(&pocket.amounts);
+        self.amounts = pocket.amounts;
         self.totals = self.totals.and(&planner.cutter.totals.since(&totals));
         self.moves.push(before..planner.cutter.moves.len());
         Ok(())
-    }
-
-    fn take(&mut self, amounts: &Amounts) {
-        (self.crests, self.crest_length) = (amounts.crests, amounts.crest_length);
-        (self.entry_length, self.link_length) = (amounts.entry_length, amounts.link_length);
-        (self.slots, self.slot_length) = (amounts.slots, amounts.slot_length);
-        self.full_width_length = amounts.full_width_length;
-        (self.largest_step, self.largest_step_at) = (amounts.largest_step, amounts.largest_step_at);
     }
 }
 

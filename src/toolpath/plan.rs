@@ -7,6 +7,7 @@
 //! tool radius and the stock; that a ramped stretch is cut again at depth.
 //! **Does not** shorten the way between pockets or between branches of a pocket.
 
+use super::amounts::Amounts;
 use super::course::Course;
 use super::crest::{Crest, Reach};
 use super::cutter::Cutter;
@@ -44,27 +45,6 @@ pub(super) struct Planner<'a> {
     pub fallbacks: Option<(usize, usize, Option<Point>)>,
     /// Leads that had less room than asked.
     pub leads: ShortLeads,
-}
-
-/// What is cut besides passes, at all heights, and how wide.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Amounts {
-    /// Excursions along the axis, for what stands between passes.
-    pub crests: usize,
-    /// Their length, the ways there and back included.
-    pub crest_length: f64,
-    /// Length of the ways down into stock.
-    pub entry_length: f64,
-    /// Length of links at depth and of leads.
-    pub link_length: f64,
-    /// Links through stock, and the length of that.
-    pub slots: usize,
-    pub slot_length: f64,
-    /// Length of what is cut as wide as the tool is.
-    pub full_width_length: f64,
-    /// Largest distance between neighboring passes, and where.
-    pub largest_step: f64,
-    pub largest_step_at: Option<Point>,
 }
 
 /// What is known of the pocket at hand.

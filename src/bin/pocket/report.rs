@@ -4,8 +4,8 @@ use crate::notice::{Notice, counted, short};
 use crate::plan::Plan;
 use crate::timings::Timings;
 use crate::verdict::Verdict;
-use medial::toolpath::{PocketPath, Rest, Totals};
-use medial::{Pocket, Point, Units};
+use medial::toolpath::{Amounts, PocketPath, Rest, Totals};
+use medial::{Pocket, Units};
 use serde::Serialize;
 use std::fmt::Write;
 
@@ -35,15 +35,8 @@ struct PocketReport<'a> {
     unreachable: &'a [Rest],
     narrowest_neck: Option<f64>,
     passes: usize,
-    crests: usize,
-    crest_length: f64,
-    largest_step: f64,
-    largest_step_at: Option<Point>,
-    full_width_length: f64,
-    entry_length: f64,
-    link_length: f64,
-    slots: usize,
-    slot_length: f64,
+    #[serde(flatten)]
+    amounts: Amounts,
     most_retracts: usize,
     path: Totals,
     machined: bool,
@@ -60,15 +53,7 @@ impl<'a> PocketReport<'a> {
             unreachable: &path.unreachable,
             narrowest_neck: path.narrowest_neck,
             passes: path.passes,
-            crests: path.crests,
-            crest_length: path.crest_length,
-            largest_step: path.largest_step,
-            largest_step_at: path.largest_step_at,
-            full_width_length: path.full_width_length,
-            entry_length: path.entry_length,
-            link_length: path.link_length,
-            slots: path.slots,
-            slot_length: path.slot_length,
+            amounts: path.amounts,
             most_retracts: path.most_retracts,
             path: path.totals,
             machined: path.machined,
@@ -86,14 +71,14 @@ impl PocketReport<'_> {
         let mut text = format!(
             "  {cut_length:.1} {unit} cut, {:.1} {unit} of it at full width, largest step {:.4} {unit}; \
              {rapid_length:.1} {unit} rapid, {} (at most {} needed), {minutes:.1} min\n",
-            self.full_width_length,
-            self.largest_step,
+            self.amounts.full_width_length,
+            self.amounts.largest_step,
             counted(retracts, "retract", "retracts"),
             self.most_retracts,
         );
-        if self.slots > 0 {
-            let slots = counted(self.slots, "slot", "slots");
-            text += &format!("  {slots} through stock, {:.1} {unit} long\n", self.slot_length);
+        if self.amounts.slots > 0 {
+            let slots = counted(self.amounts.slots, "slot", "slots");
+            text += &format!("  {slots} through stock, {:.1} {unit} long\n", self.amounts.slot_length);
         }
         if let Some(rest) = self.unreachable.first() {
             let places = counted(self.unreachable.len(), "place", "places");
@@ -157,9 +142,10 @@ impl<'a> Report<'a> {
             }
             let _ = if p.machined {
                 let _ = write!(text, ", {}", counted(p.passes, "pass", "passes"));
-                if p.crests > 0 {
-                    let crests = counted(p.crests, "pass", "passes");
-                    let _ = write!(text, " and {crests} along the axis ({:.1} {unit})", p.crest_length);
+                if p.amounts.crests > 0 {
+                    let crests = counted(p.amounts.crests, "pass", "passes");
+                    let _ =
+                        write!(text, " and {crests} along the axis ({:.1} {unit})", p.amounts.crest_length);
                 }
                 let _ = writeln!(text, ", {:.4} {unit}2 out of reach", p.unreachable_area);
                 text.write_str(&p.details(unit))
