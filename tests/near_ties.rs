@@ -160,6 +160,23 @@ fn an_island_that_touches_within_round_off_is_part_of_the_wall() {
     )]);
 }
 
+/// An island as large as the pocket but for 1e-11, in which it touches along a stretch that no vertex marks:
+/// there a disk has no room at all.
+#[test]
+fn an_axis_passes_a_place_without_room() {
+    let outer = [
+        (0.012072908679256075, 0.0075455679244509554, 1.0),
+        (-0.0030182271699149303, 0.0075455679244509554, 1.0),
+    ];
+    let island = [
+        (0.012072908679121528, 0.007545567924585503, -1.0),
+        (-0.0030182271697803825, 0.007545567924585503, -1.0),
+    ];
+    let loops = [outer, island].map(ArcSpline::closed).to_vec();
+    let mat = Pocket::from_loops(loops, Tolerance::MM).unwrap().medial_axis().unwrap();
+    assert!(mat.check().is_ok(), "{:?}", mat.check());
+}
+
 /// Where loops touch, a corner of the one sector and a straight wall of the other are at the same place: a
 /// disk that touches there touches the wall.
 #[test]

@@ -244,11 +244,13 @@ mod tests {
     /// The wedge is thinner than an ulp where the ray passes it.
     #[test]
     fn a_ray_past_a_sharp_corner_hits_its_near_side_first() {
+        /// Height of the corner.
+        const TIP: f64 = 481_460.585_3;
         let far = 481_461.0;
-        let wedge = ArcSpline::closed([(-far, 481_460.595, 0.0), (far, 481_460.5853, 0.0), (-far, far, 0.0)]);
+        let wedge = ArcSpline::closed([(-far, 481_460.595, 0.0), (far, TIP, 0.0), (-far, far, 0.0)]);
         let rays = Rays::new([(0, &wedge)].into_iter());
         for step in 1..100 {
-            let below = turned(point(far, 481_460.5853 - 1e-6 * f64::from(step)));
+            let below = turned(point(far, TIP - 1e-6 * f64::from(step)));
             let hit = rays.first(below, |_| false);
             assert_eq!(hit, Some(Hit { owner: 0, from_left: false }), "{step}");
         }

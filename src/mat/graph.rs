@@ -44,19 +44,27 @@ pub(super) const DISK_ROUNDINGS: f64 = 32.0;
 
 impl Graph {
     /// The graph of a lamination: all faces solved.
-    pub(super) fn of(sites: &[Site], map: Lamination, error: f64) -> Graph {
+    pub(super) fn of(sites: &[Site], mut map: Lamination, error: f64) -> Graph {
+        let mut graph = Graph { disks: std::mem::take(&mut map.disks), error, ..Graph::default() };
+        graph.pieces = Graph::pieces_of(sites, &map);
+        map.forget_contacts();
+        graph.solve_faces(sites, &map);
+        graph
+    }
+
+    /// The pieces that end at the visits of a lamination.
+    fn pieces_of(sites: &[Site], map: &Lamination) -> Vec<BoundaryPiece> {
         let follow = map.boundary_order(map.item_count(sites));
-        let mut graph = Graph { disks: map.disks.clone(), error, ..Graph::default() };
+        let mut pieces = Vec::with_capacity(map.visits.len());
         let before = |i: u32, row: &std::ops::Range<u32>| if i == row.start { row.end - 1 } else { i - 1 };
         for row in &map.rows {
             for i in row.clone() {
                 let piece = map.piece(sites, i, before(i, row));
                 let next = if map.visits[i as usize].crossed { NONE } else { follow[i as usize] };
-                graph.pieces.push(BoundaryPiece { piece, next, edge: NONE });
+                pieces.push(BoundaryPiece { piece, next, edge: NONE });
             }
         }
-        graph.solve_faces(sites, &map);
-        graph
+        pieces
     }
 
     fn solve_faces(&mut self, sites: &[Site], map: &Lamination) {
@@ -77,6 +85,13 @@ impl Graph {
                 Face::solve(sites, &slots, self);
             }
         }
+    }
+
+    /// Gives back what is reserved for more.
+    pub(super) fn shrink(&mut self) {
+        self.disks.shrink_to_fit();
+        self.pieces.shrink_to_fit();
+        self.edges.shrink_to_fit();
     }
 
     /// Disks that are a whole part of the pocket, without an edge, in the order of their rings.

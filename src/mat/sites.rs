@@ -41,7 +41,7 @@ pub(crate) struct Sites {
 const QUARTER_SLACK: f64 = 0.01;
 
 /// Roundings in a place of the boundary: two coordinates of either end, and of the place between.
-const PLACE_ROUNDINGS: f64 = 8.0;
+pub(super) const PLACE_ROUNDINGS: f64 = 8.0;
 
 impl Sites {
     /// The sites in the unit frame, holes with a joint at their extreme place in `direction`.

@@ -14,6 +14,8 @@
 //! disk found is then never larger than the one that touches the closed site.
 
 use super::site::{Foot, Site};
+use super::sites::PLACE_ROUNDINGS;
+use crate::boundary::TOUCHING_ULPS;
 use crate::geom::{Point, Vector};
 
 /// A place of the boundary and the normal along which a disk grows there.
@@ -113,7 +115,9 @@ fn tangent(span: &Span<'_>, probe: &Probe) -> Option<f64> {
     let w1 = (probe.base - span.to.point) + probe.offset;
     let near_start = w0.length_squared() <= w1.length_squared();
     let (w, n) = if near_start { (w0, span.from.normal) } else { (w1, span.to.normal) };
-    let (r, f) = tangent_to_carrier(w, n, k, probe.normal)?;
+    let overlap = OVERLAP * span.site.error;
+    let (r, f) = tangent_to_carrier(w, n, k, probe.normal)
+        .or_else(|| overlaps(w, n, k, probe.normal, overlap).then_some((span.site.error, 1.0)))?;
     if f <= DIRECTION_ERROR {
         return Some(r);
     }
@@ -124,6 +128,17 @@ fn tangent(span: &Span<'_>, probe: &Probe) -> Option<f64> {
     let (q0, q1) = if near_start { (q, q - chord) } else { (q + chord, q) };
     let inside = q0.dot(span.from.normal.right()) >= 0.0 && q1.dot(span.to.normal.right()) <= 0.0;
     inside.then_some(r)
+}
+
+/// Loops that touch may overlap by this many times the round-off of a place; see [`Pocket`](crate::Pocket).
+const OVERLAP: f64 = TOUCHING_ULPS / PLACE_ROUNDINGS;
+
+/// Whether a place lies on the far side of a carrier that faces it, by no more than loops may overlap: the
+/// disk there is as good as none.
+#[inline]
+fn overlaps(w: Vector, n: Vector, k: f64, normal: Vector, overlap: f64) -> bool {
+    let twice = 2.0 * w.dot(n) - k * w.length_squared();
+    twice <= 0.0 && twice >= -2.0 * overlap && normal.dot(n - w * k) < 0.0
 }
 
 /// Share of the radius of an arc, the rest of which a disk takes up, below which `1 - k r` is computed

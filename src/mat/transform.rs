@@ -152,6 +152,7 @@ impl Mat {
     pub(super) fn of_graph(frame: Frame, all: Sites, bvh: Bvh, mut graph: Graph, parts: usize) -> Mat {
         let islands = all.encircled(parts);
         graph.split_at_extrema(&all.sites);
+        graph.shrink();
         let kinds = Kinds::of(&graph);
         let (sites, blur, radii) = (all.sites, all.blur, OnceLock::new());
         Mat { frame, sites, bvh, graph, kinds, islands, parts, blur, radii }

@@ -93,7 +93,7 @@ impl Tracer<'_> {
                 // A step so long, between circles that hardly cross, leads away from both by more than they
                 // are off: back to one of them.
                 let (distance, normal) = sites[0].carrier_distance(next);
-                next = next + normal * (self.d - distance);
+                next += normal * (self.d - distance);
             }
             let after = residuals(next);
             let converges = worst(&after) < 0.5 * worst(&now) && self.may_hold(edge, next);
