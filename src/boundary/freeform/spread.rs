@@ -418,11 +418,11 @@ impl Spread {
             } else {
                 inner &= fine;
             }
-            let measured = self.widths[i] * error.cbrt();
+            let measured = || self.widths[i] * error.cbrt();
             self.growth[i] = match (many, fine) {
                 (true, true) => 1.0,
-                (true, false) => (measured / width).max(1.0) * (1.0 + SPARE),
-                _ => measured / width,
+                (true, false) => (measured() / width).max(1.0) * (1.0 + SPARE),
+                _ => measured() / width,
             };
         }
         if !inner {
