@@ -12,6 +12,7 @@
 //! (Lawson), which leads to the least largest distance.
 
 use super::biarc::{Arc, Joint, Node, biarc};
+use super::bound::Distance;
 use super::density::{Cursor, Density};
 use super::layout::Ends;
 use super::spiral::Cell;
@@ -385,8 +386,7 @@ impl<'a, 'b> Search<'a, 'b> {
             to
         };
         for pair in arcs.chunks(2) {
-            let mut cell = Cell::of_one(self.track, pair[0], [at, at], 0.0);
-            cell.distance = super::bound::Distance::ZERO;
+            let mut cell = Cell::alone(pair[0], [at, at], Distance::ZERO);
             for (i, arc) in pair.iter().enumerate() {
                 let is_last = arc.end == arcs[n - 1].end;
                 let near = at + (last - at) * 0.5;
@@ -398,7 +398,7 @@ impl<'a, 'b> Search<'a, 'b> {
                 if next <= at {
                     return None;
                 }
-                let distance = self.track.measure_arc(arc, at, next, self.tolerance);
+                let distance = self.track.prove_arc(arc, at, next, self.tolerance);
                 if distance.bound > self.tolerance || distance.bound.is_nan() {
                     return None;
                 }
@@ -406,9 +406,6 @@ impl<'a, 'b> Search<'a, 'b> {
                 (cell.arcs[i], cell.to) = (*arc, next);
                 cell.joint = if i == 0 { next } else { cell.joint };
                 at = next;
-            }
-            if pair.len() == 1 {
-                cell.arcs[1] = Arc { start: pair[0].end, end: pair[0].end, bulge: 0.0 };
             }
             out.push(cell);
         }
