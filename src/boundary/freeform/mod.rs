@@ -31,6 +31,7 @@ mod apex;
 mod bernstein;
 mod biarc;
 mod bound;
+mod chain;
 mod chords;
 mod cuts;
 mod density;
@@ -51,6 +52,7 @@ mod run;
 mod short;
 mod spiral;
 mod spread;
+mod squares;
 mod track;
 
 pub use ellipse::EllipseArc;
