@@ -44,6 +44,9 @@ const STRIDE: f64 = 0.5;
 /// After steps as short as this, errors go on to change as before.
 const STRAIGHT: f64 = 1.0 / 16.0;
 
+/// Round-off between a normal and where the curve crosses it, in that of a place.
+const CROSSING_ROUNDINGS: f64 = 4.0;
+
 /// A sample of the curve.
 #[derive(Clone, Copy, Debug)]
 struct Sample {
@@ -194,17 +197,20 @@ impl<'a, 'b> Search<'a, 'b> {
         let ([from, to], [low, high]) = (ends.nodes.map(|node| node.u), ends.reach);
         let (first, last) = (arcs[0], arcs[n - 1]);
         let mut at = match ends.circles[0] {
-            Some(_) => self.track.beyond(first.start, first.start_tangent(), [low, from, high]),
+            Some(_) => self.crossing((first.start, first.start_tangent()), [low, from, high])?,
             None => from,
         };
         let end = match ends.circles[1] {
-            Some(_) => self.track.beyond(last.end, last.end_tangent(), [at, to, high]),
+            Some(_) => self.crossing((last.end, last.end_tangent()), [at, to, high])?,
             None => to,
         };
         for (i, pair) in arcs.chunks(2).enumerate() {
             let mut cell = Cell::alone(pair[0], [at, at], Distance::ZERO);
             for (j, arc) in pair.iter().enumerate() {
-                let next = if 2 * i + j + 1 == n { end } else { self.crossing(arc, at, end) };
+                let next = match 2 * i + j + 1 == n {
+                    true => end,
+                    false => self.crossing((arc.end, arc.end_tangent()), [at, 0.5 * (at + end), end])?,
+                };
                 let distance = self.track.prove_arc(arc, at, next, self.links.tolerance);
                 if next <= at || distance.bound.is_nan() || distance.bound > self.links.tolerance {
                     return None;
@@ -219,9 +225,11 @@ impl<'a, 'b> Search<'a, 'b> {
         Some(())
     }
 
-    /// The parameter where the curve crosses the normal at the end of an arc.
-    fn crossing(&self, arc: &Arc, from: f64, to: f64) -> f64 {
-        self.track.beyond(arc.end, arc.end_tangent(), [from, 0.5 * (from + to), to])
+    /// The parameter between two others where the curve crosses the normal at a place, if it does.
+    fn crossing(&self, (place, tangent): (Vector, Vector), between: [f64; 3]) -> Option<f64> {
+        let u = self.track.beyond(place, tangent, between);
+        let off = (self.track.place(u) - place).dot(tangent).abs();
+        (off <= CROSSING_ROUNDINGS * self.track.noise()).then_some(u)
     }
 }
 
