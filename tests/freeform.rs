@@ -438,6 +438,18 @@ fn bounds_of_ellipses_are_near() {
 }
 
 #[test]
+fn a_bound_made_tight_stays_within_the_tolerance() {
+    let points = [(4.0, 1.0), (2.0, 3.0), (0.0, 1.0), (0.0, -8.424), (0.0, 0.0)].map(|(x, y)| point(x, y));
+    let knots = vec![0.0, 0.0, 1.065, 2.065, 3.065, 3.065, 4.065, 4.065, 4.065];
+    let spline = Nurbs::new(3, knots, points.to_vec(), vec![], false).unwrap();
+    for i in 0..400 {
+        let tolerance = 1e-3 * 0.99f64.powi(i);
+        let fit = spline.to_arcs(tolerance).unwrap();
+        assert!(fit.bound <= tolerance, "{:e} > {tolerance:e}", fit.bound);
+    }
+}
+
+#[test]
 fn arcs_over_apices_do_not_pass_them() {
     // Weights by chance put apices so near to each other that an arc over one would begin behind it.
     let points = [

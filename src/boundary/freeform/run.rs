@@ -330,7 +330,7 @@ impl Laid {
                 (Some(before), Some(after)) => apex_arc.between(work.track, before, (after, turn)),
                 _ => apex_arc.cell,
             };
-            if laid.distance.bound > work.tolerance {
+            if laid.distance.bound > work.tolerance || laid.distance.bound.is_nan() {
                 self.lost.push(work.run.at(to));
             }
             let begin = self.cells.len();
