@@ -437,6 +437,45 @@ fn bounds_of_ellipses_are_near() {
     }
 }
 
+#[test]
+fn a_bound_made_tight_stays_within_the_tolerance() {
+    let points = [(4.0, 1.0), (2.0, 3.0), (0.0, 1.0), (0.0, -8.424), (0.0, 0.0)].map(|(x, y)| point(x, y));
+    let knots = vec![0.0, 0.0, 1.065, 2.065, 3.065, 3.065, 4.065, 4.065, 4.065];
+    let spline = Nurbs::new(3, knots, points.to_vec(), vec![], false).unwrap();
+    for i in 0..400 {
+        let tolerance = 1e-3 * 0.99f64.powi(i);
+        let fit = spline.to_arcs(tolerance).unwrap();
+        assert!(fit.bound <= tolerance, "{:e} > {tolerance:e}", fit.bound);
+    }
+}
+
+#[test]
+fn arcs_over_apices_do_not_pass_them() {
+    // Weights by chance put apices so near to each other that an arc over one would begin behind it.
+    let points = [
+        (10.0, 0.0),
+        (9.210_609_965_717_158, 3.894_183_433_947_347),
+        (6.967_067_140_419_26, 7.173_560_957_334_294),
+        (3.623_577_566_116_644_3, 9.320_390_914_587_47),
+        (-0.291_995_225_706_561_17, 9.995_736_122_626_301),
+        (-4.161_468_392_838_42, 9.092_974_328_054_794),
+        (-7.373_937_188_823_580_5, 6.754_631_836_116_572),
+        (-9.422_223_468_538_72, 3.349_881_523_549_327),
+        (-9.982_947_845_316_025, -0.583_741_439_384_573_3),
+    ];
+    let weights = [0.922, 0.743, 1.487, 2.285, 2.24, 2.238, 1.391, 2.03, 1.619];
+    let mut knots = vec![0.0; 6];
+    knots.extend([0.001_486, 0.027_814, 0.812_16]);
+    knots.extend([1.812_16; 5]);
+    let points = points.iter().map(|&(x, y)| point(x, y)).collect();
+    let spline = Nurbs::new(4, knots, points, weights.to_vec(), false).unwrap();
+    for tolerance in [0.2, 0.1, 0.05, 0.03, 0.02, 0.014, 0.01, 0.005] {
+        let fit = spline.to_arcs(tolerance).unwrap();
+        let far = farthest(&sampled(&spline, 2000), &fit.path);
+        assert!(far <= fit.bound && fit.bound <= tolerance, "{tolerance}: {far:e} > {:e}", fit.bound);
+    }
+}
+
 prop_compose! {
     /// A closed cubic whose control points are at random distances around a center.
     fn any_ring()(radii in prop::collection::vec(8.0..30.0f64, 5..12), weight in 0.3..3.0f64) -> Nurbs {

@@ -55,7 +55,7 @@ impl ApexArc {
         }
         let angle = last.end_tangent().angle_to(next.start_tangent());
         let arc = Arc { start: last.end, end: next.start, bulge: (0.25 * angle).tan() };
-        Cell::of_one(track, arc, [before.to, after.from + turn], self.tolerance)
+        Cell::proven(track, arc, [before.to, after.from + turn], self.tolerance)
     }
 }
 
@@ -107,7 +107,7 @@ pub(super) fn apex_arc(
     };
     let ends = |reach: [f64; 2]| [0, 1].map(|side| end(side, reach[side]));
     let (arc, [a, b], shape) = corrected(track, &apex, (most, tolerance), first, ends)?;
-    let cell = Cell::of_one(track, arc, [a.u, b.u], tolerance);
+    let cell = Cell::proven(track, arc, [a.u, b.u], tolerance);
     let nodes = [Node { tangent: arc.start_tangent(), ..a }, Node { tangent: arc.end_tangent(), ..b }];
     (cell.distance.bound <= tolerance).then_some(ApexArc { cell, nodes, shape, tolerance })
 }

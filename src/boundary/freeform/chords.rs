@@ -11,6 +11,7 @@
 //! three vertices; each is held against its chords as against any curve ([`super::bound`]).
 
 use super::biarc::{Joint, Node};
+use super::bound::Distance;
 use super::piece::Piece;
 use super::pieces::{Pieces, is_usable};
 use super::spiral::{Cell, cell};
@@ -38,8 +39,7 @@ impl ArcSpline {
         if self.len() < LEAST_CHORDS || !usable {
             return None;
         }
-        let chords = Chords::of(self, tolerance)?;
-        chords.replaced()
+        Chords::of(self, tolerance)?.replaced().map(|(path, _)| path)
     }
 }
 
@@ -130,10 +130,11 @@ impl Chords {
         Chords::rise(self.chord(i), self.turn(sides)) > self.tolerance
     }
 
-    fn replaced(&self) -> Option<ArcSpline> {
+    /// The new path, and how far it is from the chords.
+    fn replaced(&self) -> Option<(ArcSpline, Distance)> {
         let n = self.count();
         let track = Track::new(&self.curve);
-        let mut made = Made { vertices: Vec::new(), replaced: false };
+        let mut made = Made { vertices: Vec::new(), replaced: false, distance: Distance::ZERO };
         let mut i = 0;
         while i < n {
             let mut end = i + 1;
@@ -153,7 +154,7 @@ impl Chords {
         if !self.closed {
             made.push(self, self.vertices[n], 0.0);
         }
-        Some(ArcSpline { vertices: made.vertices, closed: self.closed })
+        Some((ArcSpline { vertices: made.vertices, closed: self.closed }, made.distance))
     }
 
     /// Replaces the chords from one vertex to another, as far as that spares any.
@@ -278,6 +279,7 @@ impl Chords {
 struct Made {
     vertices: Vec<Vertex>,
     replaced: bool,
+    distance: Distance,
 }
 
 impl Made {
@@ -291,6 +293,7 @@ impl Made {
 
     fn replace(&mut self, chords: &Chords, cell: &Cell) {
         self.replaced = true;
+        self.distance = self.distance.max(cell.distance);
         for (arc, _, _) in cell.spans() {
             self.push(chords, arc.start, arc.bulge);
         }
@@ -309,7 +312,7 @@ mod tests {
 
     /// Largest distance of places on a path from another path.
     fn apart(a: &ArcSpline, b: &ArcSpline) -> f64 {
-        let places = a.elements().flat_map(|e| [0.0, 0.25, 0.5, 0.75].map(|t| e.point_at(t)));
+        let places = a.elements().flat_map(|e| (0..16).map(move |i| e.point_at(f64::from(i) / 16.0)));
         places.map(|p| b.distance(p)).fold(0.0, f64::max)
     }
 
@@ -320,6 +323,28 @@ mod tests {
         assert!(arcs.len() <= 12, "{}", arcs.len());
         assert!((arcs.area() - 400.0 * std::f64::consts::PI).abs() < 0.01);
         assert!(apart(&drawn, &arcs) <= 0.01 && apart(&arcs, &drawn) <= 0.01);
+    }
+
+    #[test]
+    fn the_bound_is_above_all_samples_and_near_them() {
+        let wave = |i: usize| (0.05 * i as f64, (0.05 * i as f64).sin() + 0.2 * (0.11 * i as f64).cos());
+        let waves = ArcSpline::open((0..400).map(wave).map(|(x, y)| (10.0 * x, 10.0 * y, 0.0)));
+        let oval = |i: usize| Vector::from_angle(TAU * i as f64 / 300.0);
+        let oval = ArcSpline::closed((0..300).map(oval).map(|v| (30.0 * v.x, 12.0 * v.y, 0.0)));
+        let mut made = 0;
+        for drawn in [circle(1000, 20.0), circle(37, 2.0), waves, oval] {
+            for tolerance in [0.2, 0.05, 0.01] {
+                let Some((arcs, distance)) = Chords::of(&drawn, tolerance).and_then(|c| c.replaced()) else {
+                    continue;
+                };
+                let sampled = apart(&drawn, &arcs).max(apart(&arcs, &drawn));
+                let bound = distance.bound;
+                assert!(sampled <= bound && bound <= tolerance, "{tolerance}: {sampled:e}, {bound:e}");
+                assert!(bound <= 1.2 * sampled, "{tolerance}: {sampled:e}, {bound:e}");
+                made += 1;
+            }
+        }
+        assert!(made >= 8, "{made}");
     }
 
     #[test]

@@ -9,7 +9,7 @@ use super::piece::Bend;
 use super::track::Track;
 
 /// Precision of the integral over a leaf, in biarcs.
-const PRECISION: f64 = 1.0 / 16_777_216.0;
+const PRECISION: f64 = 1.0 / 4_194_304.0;
 
 /// How many times better Boole's rule is on two halves than on the whole.
 const BETTER: f64 = 63.0;

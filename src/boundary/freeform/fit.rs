@@ -140,7 +140,9 @@ fn tighten(track: &Track, cells: &mut [Cell]) {
     let found = cells.iter().map(|c| c.distance.found).fold(0.0, f64::max);
     for cell in cells.iter_mut().filter(|c| !c.sharp && c.distance.bound > LOOSE * found) {
         let distances = cell.spans().map(|(arc, from, to)| track.measure_arc(&arc, from, to, 0.0));
-        cell.distance = distances.fold(Distance::ZERO, Distance::max);
+        let tight = distances.fold(Distance::ZERO, Distance::max);
+        // Both bounds hold; without a limit the second may be the larger one.
+        cell.distance = Distance { bound: tight.bound.min(cell.distance.bound), ..tight };
     }
 }
 

@@ -11,7 +11,8 @@
 //! **Method.** The curve becomes rational Bezier pieces. Roots of Bernstein forms, isolated with
 //! certainty, cut it at corners, cusps, jumps and extrema of the curvature. One arc is laid over every
 //! apex, and biarcs between as densely as the derivative of the curvature says, which makes their errors
-//! nearly equal; their tangents are turned a little from those of the curve so that errors are least. Each
+//! nearly equal; their tangents are turned a little from those of the curve so that errors are least. Where a
+//! few arcs will do, these are searched for together with the ends of the arcs over apices. Each
 //! is proven by bounds of a polynomial in the frame of its chord. Schemes of Aichholzer et al., *Medial axis computation for planar free-form shapes*, 2009
 //! (S0 in the modules), section 2, stay for comparison ([`Scheme`]).
 //!
@@ -30,6 +31,7 @@ mod apex;
 mod bernstein;
 mod biarc;
 mod bound;
+mod chain;
 mod chords;
 mod cuts;
 mod density;
@@ -50,6 +52,7 @@ mod run;
 mod short;
 mod spiral;
 mod spread;
+mod squares;
 mod track;
 
 pub use ellipse::EllipseArc;

@@ -112,6 +112,23 @@ impl Run<'_> {
         if i == n { self.end() } else { self.stretches[i % n].from.u + turns }
     }
 
+    /// The first stretch, from the second on, that does not begin before a parameter.
+    fn after(&self, u: f64) -> usize {
+        self.stretches[1..].partition_point(|s| s.from.u < u) + 1
+    }
+
+    /// The squared distance in the plane from where stretch `i` begins, as parameters say nothing about the
+    /// shape.
+    fn far(&self, i: usize, u: f64, track: &Track) -> f64 {
+        (track.place(self.at(i)) - track.place(u)).length_squared()
+    }
+
+    /// The nearest end of the stretch that holds a parameter.
+    fn nearest(&self, u: f64, track: &Track) -> usize {
+        let after = self.after(u);
+        if self.far(after, u, track) < self.far(after - 1, u, track) { after } else { after - 1 }
+    }
+
     /// Parameters of the apices before and after the one where stretch `i > 0` begins, or of the ends.
     fn neighbors(&self, i: usize) -> [f64; 2] {
         let last = if self.ring { 2 * self.stretches.len() } else { self.stretches.len() };
@@ -159,24 +176,24 @@ impl Plan {
         }
     }
 
+    /// The nearest arc over an apex: one too wide is what bends those beside it the wrong way.
+    fn gives_way(nodes: &[At], u: f64, run: Run, track: &Track) -> Option<usize> {
+        let (after, n) = (run.after(u), run.stretches.len());
+        let before = (0..after).rev().find(|&i| run.is_apex(i));
+        let here = Some(after).filter(|&i| run.is_apex(i) && run.at(i) == u);
+        let behind = (after..=n).find(|&i| run.is_apex(i) && run.at(i) > u);
+        let behind = behind.or_else(|| (1..n).find(|&i| run.ring && run.is_apex(i)));
+        let apex_arcs = [before, here, behind].into_iter().flatten().filter(|&i| nodes[i] != At::Node);
+        apex_arcs.min_by(|&i, &j| run.far(i, u, track).total_cmp(&run.far(j, u, track)))
+    }
+
     /// Takes more care at some places; answers whether it can.
     fn improve(&mut self, (wrong, step): (&[f64], i32), run: Run, track: &Track) -> bool {
         let mut better = false;
         let n = run.stretches.len();
         let (nodes, care) = (self.nodes.clone(), self.care.clone());
         for &u in wrong {
-            let after = run.stretches[1..].partition_point(|s| s.from.u < u) + 1;
-            // Distances in the plane, as parameters say nothing about the shape.
-            let place = track.place(u);
-            let far = |i: usize| (track.place(run.at(i)) - place).length_squared();
-            let nearest = if far(after) < far(after - 1) { after } else { after - 1 };
-            // An arc too wide over an apex is what bends those beside it the wrong way.
-            let before = (0..after).rev().find(|&i| run.is_apex(i));
-            let behind = (after..=n).find(|&i| run.is_apex(i) && run.at(i) > u);
-            let behind = behind.or_else(|| (1..n).find(|&i| run.ring && run.is_apex(i)));
-            let here = Some(after).filter(|&i| run.is_apex(i) && run.at(i) == u);
-            let apex_arc = [before, here, behind].into_iter().flatten().filter(|&i| nodes[i] != At::Node);
-            let first = apex_arc.min_by(|&i, &j| far(i).total_cmp(&far(j)));
+            let (first, nearest) = (Plan::gives_way(&nodes, u, run, track), run.nearest(u, track));
             let first = first.or_else(|| Some(nearest).filter(|&i| nodes[i] != At::Node));
             if let Some(i) = first {
                 self.nodes[i] = match nodes[i] {
@@ -313,7 +330,7 @@ impl Laid {
                 (Some(before), Some(after)) => apex_arc.between(work.track, before, (after, turn)),
                 _ => apex_arc.cell,
             };
-            if laid.distance.bound > work.tolerance {
+            if laid.distance.bound > work.tolerance || laid.distance.bound.is_nan() {
                 self.lost.push(work.run.at(to));
             }
             let begin = self.cells.len();

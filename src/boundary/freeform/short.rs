@@ -22,9 +22,9 @@ const DEGREE: usize = 3;
 const SLACKS: [f64; 3] = [1.0 / 256.0, 1.0 / 64.0, 1.0 / 16.0];
 
 /// Steps of Newton's method for a stationary place at most, and the length of the last one: the value there
-/// is as good as the square of that.
+/// is as good as the fourth power of that, as the steps square and it is stationary.
 const STEPS: usize = 8;
-const LAST_STEP: f64 = 1e-5;
+const LAST_STEP: f64 = 1e-3;
 
 /// A polynomial of degree 6.
 type Sextic = [f64; 2 * DEGREE + 1];

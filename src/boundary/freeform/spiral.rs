@@ -174,7 +174,16 @@ fn blunt(a: &Node, b: &Node, reach: f64) -> Cell {
 impl Cell {
     /// One arc alone for the curve between two parameters.
     pub fn of_one(track: &Track, arc: Arc, [from, to]: [f64; 2], limit: f64) -> Cell {
-        let distance = track.measure_arc(&arc, from, to, limit);
+        Cell::alone(arc, [from, to], track.measure_arc(&arc, from, to, limit))
+    }
+
+    /// The same where it is enough that the distance is within a limit.
+    pub fn proven(track: &Track, arc: Arc, [from, to]: [f64; 2], limit: f64) -> Cell {
+        Cell::alone(arc, [from, to], track.prove_arc(&arc, from, to, limit))
+    }
+
+    /// One arc alone at a distance.
+    pub fn alone(arc: Arc, [from, to]: [f64; 2], distance: Distance) -> Cell {
         let none = Arc { start: arc.end, end: arc.end, bulge: 0.0 };
         Cell { arcs: [arc, none], from, joint: to, to, distance, sharp: false }
     }

@@ -136,12 +136,8 @@ impl Spread {
         out: &mut Vec<Cell>,
     ) -> Result<(), Lost> {
         let many = total > MANY;
-        if total <= FEW && goal.tilted {
-            let least = ((FEWEST * total).ceil() as usize).max(1);
-            let found = |arcs: usize| few(track, (ends, &self.density), (arcs, goal.tolerance), out);
-            if (least..least + TRIED).any(found) {
-                return Ok(());
-            }
+        if self.lay_few(track, ends, (goal, total), out) {
+            return Ok(());
         }
         let (mut arcs, mut sweeps) = (first(total), 0);
         for _ in 0..MAX_LAYOUTS {
@@ -178,6 +174,13 @@ impl Spread {
             arcs = if again { arcs } else { (least as usize).max(arcs + 1) };
         }
         Err(Lost { ends: ends.apex_arcs })
+    }
+
+    /// Appends a few arcs, if these will do and are found.
+    fn lay_few(&self, track: &Track, ends: &Ends, (goal, total): (&Goal, f64), out: &mut Vec<Cell>) -> bool {
+        let least = ((FEWEST * total).ceil() as usize).max(1);
+        let mut found = |arcs: usize| few(track, (ends, &self.density), (arcs, goal.tolerance), out);
+        total <= FEW && goal.tilted && (least..least + TRIED).any(&mut found)
     }
 
     /// Takes the density between two ends; answers its integral if it says something.
@@ -418,11 +421,11 @@ impl Spread {
             } else {
                 inner &= fine;
             }
-            let measured = self.widths[i] * error.cbrt();
+            let measured = || self.widths[i] * error.cbrt();
             self.growth[i] = match (many, fine) {
                 (true, true) => 1.0,
-                (true, false) => (measured / width).max(1.0) * (1.0 + SPARE),
-                _ => measured / width,
+                (true, false) => (measured() / width).max(1.0) * (1.0 + SPARE),
+                _ => measured() / width,
             };
         }
         if !inner {

@@ -190,6 +190,16 @@ impl<'a> Track<'a> {
 
     /// Distance between an arc and the curve between two parameters; see [`Frame::measure`].
     pub fn measure_arc(&self, arc: &Arc, from: f64, to: f64, limit: f64) -> Distance {
+        self.measure_by(arc, (from, to), [limit, 0.0])
+    }
+
+    /// The same, but below the limit the distance found may be less than the largest by far.
+    pub fn prove_arc(&self, arc: &Arc, from: f64, to: f64, limit: f64) -> Distance {
+        self.measure_by(arc, (from, to), [limit, limit])
+    }
+
+    /// Distance by short proofs within the first limit, or else by division within the second.
+    fn measure_by(&self, arc: &Arc, (from, to): (f64, f64), limits: [f64; 2]) -> Distance {
         if arc.start == arc.end {
             return Distance::UNKNOWN;
         }
@@ -199,8 +209,8 @@ impl<'a> Track<'a> {
             let found = if self.sampled {
                 frame.sample(&piece.part(range.0, range.1))
             } else {
-                let found = short::measure(&frame, piece, range, limit);
-                found.unwrap_or_else(|| frame.measure(piece.part(range.0, range.1), 0.0))
+                let found = short::measure(&frame, piece, range, limits[0]);
+                found.unwrap_or_else(|| frame.measure(piece.part(range.0, range.1), limits[1]))
             };
             distance = distance.max(found);
             if distance.bound.is_infinite() {
