@@ -8,15 +8,16 @@
 //! **Method.** Outward, as the other way round the next pass has its place already. Where both passes
 //! run on smoothly, the strip between them is made of spokes from the one to the other: none of its
 //! places is farther from the pass that is cut than the two lie apart. The link is the biarc with equal
-//! tangents from the end of the one to a place of the other that is a few times that distance ahead.
+//! tangents from the end of the one to a place of the other somewhat farther ahead than aside. Its first
+//! arc stays nearer to its start than the passes are to each other, so it does not come beyond the second.
 
 use super::course::{Course, Place, turns};
 use super::plan::{Ground, Planner};
 use crate::geom::{Element, Point, Vector};
 
-/// How far ahead a link meets the next pass, in distances between the two: the first that has room. More
-/// would be a longer way, less would turn by a right angle.
-const AHEAD: [f64; 2] = [2.0, 1.5];
+/// How far ahead a link meets the next pass, in distances between the two. More would be a longer way, less
+/// would turn nearly by a right angle.
+const AHEAD: f64 = 1.5;
 
 /// The pass in whose end the tool stands.
 pub(super) struct Last {
@@ -35,7 +36,7 @@ impl Planner<'_> {
             && let Some((arcs, place)) = ground.bend(last, pass, course)
         {
             arcs.iter().for_each(|arc| self.cut_link(arc));
-            // Turned outward by half a right angle, the tool is as good as full from half its width on.
+            // Turned outward as far as that, the tool is as good as full from half its width on.
             if ground.apart(pass, last.pass) > self.job.radius() {
                 self.amounts.full_width_length += arcs.iter().map(Element::length).sum::<f64>();
             }
@@ -78,15 +79,13 @@ impl Ground<'_> {
         let leaving = last.course.elements.last()?.tangents().1;
         let (apart, foot) = (self.apart(last.pass, pass), course.nearest(from));
         let distance = self.distance(pass) - self.slack;
-        let link = |ahead: &f64| {
-            let onto = course.ahead_of(foot, ahead * apart)?;
-            let arriving = course.elements[onto.element].tangent_at(onto.point);
-            let arcs = biarc((from, leaving), (onto.point, arriving))?;
-            let is_free = last.course.begins_beside(onto.point, apart + self.slack)
-                && arcs.iter().all(|arc| (self.is_clear)(arc, distance));
-            is_free.then_some((arcs, onto))
-        };
-        AHEAD.iter().find_map(link)
+        let onto = course.ahead_of(foot, AHEAD * apart)?;
+        let arriving = course.elements[onto.element].tangent_at(onto.point);
+        let arcs = biarc((from, leaving), (onto.point, arriving))?;
+        let is_free = last.course.begins_beside(onto.point, apart + self.slack)
+            && arcs[0].chord().length() <= apart
+            && (self.is_clear)(&arcs[1], distance);
+        is_free.then_some((arcs, onto))
     }
 }
 
