@@ -112,6 +112,11 @@ impl Job {
     /// As for [`Job::path`].
     pub fn path_along(&self, mats: &[Mat], levels: Vec<Vec<Level>>) -> Result<Path, Error> {
         self.validate()?;
+        // From within a pool, work in parallel on thousands of small pockets begins at once.
+        rayon::scope(|_| self.planned(mats, levels))
+    }
+
+    fn planned(&self, mats: &[Mat], levels: Vec<Vec<Level>>) -> Result<Path, Error> {
         let mut path = Path::default();
         self.note_step(&mut path);
         let mut planner = Planner::new(self);

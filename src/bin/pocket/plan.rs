@@ -10,6 +10,7 @@ use medial::io::json::Document;
 use medial::io::svg::Picture;
 use medial::toolpath::{Job, Path};
 use medial::{Error, Mat, Mismatch, Pocket, Pockets, Tolerance};
+use rayon::prelude::*;
 use std::io;
 
 /// All that is known when the work is done.
@@ -59,7 +60,9 @@ impl Plan {
         progress.stage("offsets");
         let levels = timed(&mut timings.offsets, || {
             let levels = |mat: &Mat| certified(mat, tolerance).and_then(|mat| job.levels(mat));
-            mats.iter().map(levels).collect::<Result<Vec<_>, _>>()
+            // All at once, and of errors always the first.
+            let all: Vec<_> = mats.par_iter().map(levels).collect();
+            all.into_iter().collect::<Result<Vec<_>, _>>()
         })?;
         progress.stage("tool path");
         let path = timed(&mut timings.path, || job.path_along(&mats, levels))?;
