@@ -1,7 +1,7 @@
 //! Links along the axis: two chambers and the corridor between them, and a ring that winds.
 
 use medial::verify::Boundary;
-use medial::{ArcSpline, Job, Mat, Move, Path, Pocket, Point, Start, Tolerance, Units, point};
+use medial::{ArcSpline, Element, Job, Mat, Move, Path, Pocket, Point, Start, Tolerance, Units, point};
 
 /// Two chambers, joined by a corridor with four turns, `half` wide on each side.
 fn chambers(half: f64) -> Pocket {
@@ -48,16 +48,28 @@ fn straight_cuts(path: &Path) -> Vec<[Point; 2]> {
     ends.filter(|[a, b]| a.z.max(b.z) < 0.0).map(|ends| ends.map(|p| p.xy())).collect()
 }
 
-/// The judge looks at every straight cut in many places: none is closer to the wall than the tool
+/// The judge looks at every cut, straight or not, in many places: none is closer to the wall than the tool
 /// radius and the stock.
 fn keeps_its_distance(pocket: &Pocket, job: &Job, path: &Path) {
     let wall = Boundary::new(pocket.loops());
-    for [a, b] in straight_cuts(path) {
+    let mut arcs = 0;
+    for pair in path.moves.windows(2).filter(|pair| pair[1].to().z < 0.0) {
+        let [from, to] = [pair[0].to().xy(), pair[1].to().xy()];
+        let cut = match pair[1] {
+            Move::Rapid { .. } => continue,
+            Move::Feed { .. } => Element::segment(from, to),
+            Move::Arc { center, ccw, .. } => {
+                arcs += 1;
+                let turn = (from - center).angle_to(to - center).abs();
+                Element::arc(from, to, (0.25 * turn).tan() * if ccw { 1.0 } else { -1.0 })
+            }
+        };
         for i in 0..=50 {
-            let p = a + (b - a) * (f64::from(i) / 50.0);
-            assert!(wall.distance(p) >= job.wall_distance() - 1e-9, "{p} from {a} to {b}");
+            let p = cut.point_at(f64::from(i) / 50.0);
+            assert!(wall.distance(p) >= job.wall_distance() - 1e-9, "{p} from {from} to {to}");
         }
     }
+    assert!(arcs > 0);
 }
 
 #[test]
