@@ -35,7 +35,7 @@ const OUTSIDE: f64 = 2.0;
 pub(super) fn shoot_all(sites: &[Site], bvh: &Bvh, blur: f64) -> Vec<Shot> {
     let mut shots = vec![Shot { radius: 0.0, site: NONE, contact: Contact::Start }; sites.len()];
     shots.par_chunks_mut(RUN).enumerate().for_each(|(run, chunk)| {
-        let mut hints = Hints([NONE; 4]);
+        let mut hints = Hints([NONE; 6]);
         for (i, shot) in chunk.iter_mut().enumerate() {
             let joint = (run * RUN + i) as u32;
             if sites[joint as usize].joint != Joint::Convex {
@@ -50,7 +50,7 @@ pub(super) fn shoot_all(sites: &[Site], bvh: &Bvh, blur: f64) -> Vec<Shot> {
 }
 
 /// Sites touched last, the newest first.
-struct Hints([u32; 4]);
+struct Hints([u32; 6]);
 
 impl Hints {
     fn remember(&mut self, site: u32) {
@@ -98,7 +98,7 @@ fn shoot(sites: &[Site], bvh: &Bvh, joint: u32, blur: f64, hints: &Hints) -> Sho
         try_site(&mut best, newest.next);
     }
     let (mut back, mut ahead) = (joint, site.next);
-    for _ in 0..NEIGHBORS {
+    for _ in 0..if osculating.is_some() { NEIGHBORS } else { 0 } {
         (back, ahead) = (sites[back as usize].prev, sites[ahead as usize].next);
         try_site(&mut best, back);
         try_site(&mut best, ahead);
