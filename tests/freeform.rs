@@ -1,5 +1,8 @@
 //! Free-form curves against dense sampling, and the same curves in other words.
 
+#[path = "support/tree.rs"]
+mod tree;
+
 use medial::boundary::freeform::{CurveError, EllipseArc, Fit, Nurbs, Scheme};
 use medial::{ArcSpline, Element, Point, Vector, point, vector};
 use proptest::prelude::*;
@@ -139,6 +142,17 @@ fn no_sample_is_farther_than_the_bound_and_the_bound_is_near() {
         }
         let fit = spline.to_arcs(1e-2).unwrap();
         assert!(farthest_back(&fit.path, &sampled(spline, 2000)) <= fit.bound + 1e-5);
+    }
+}
+
+/// Where arcs over apices are as large as what is drawn, many have to yield, one after the other.
+#[test]
+fn curvature_has_as_many_extrema_as_a_tree_whose_twigs_are_near_the_tolerance() {
+    let tree = tree::tree();
+    for tolerance in [0.1, 0.03, 0.01, 0.003, 0.001] {
+        let fit = tree.to_arcs(tolerance).unwrap();
+        assert_eq!((extrema(&fit.path), fit.cuts.apices), (822, 822), "at {tolerance}");
+        assert!(fit.bound <= tolerance);
     }
 }
 

@@ -40,13 +40,10 @@ pub(super) fn wrong_places(cells: &[Cell], run: Run, noise: f64) -> Vec<f64> {
     let spans = spans(cells, run, noise, &apices);
     // Whether the curvature rises behind so many apices.
     let rises = |count: usize| run.stretches[0].rises != (count % 2 == 1);
-    let (mut wrong, mut changes, mut last) = (Vec::new(), 0, None);
+    let mut wrong = Vec::new();
     for (i, w) in spans.windows(2).enumerate() {
         let up = w[1].curvature > w[0].curvature;
         let hidden = (w[1].curvature - w[0].curvature).abs() <= w[0].error + w[1].error;
-        if !hidden && last.replace(up) != Some(up) {
-            changes += 1;
-        }
         // The pair behind the seam is the first one again, where apices are not known.
         if run.ring && i + 2 == spans.len() {
             continue;
@@ -68,12 +65,71 @@ pub(super) fn wrong_places(cells: &[Cell], run: Run, noise: f64) -> Vec<f64> {
             }
         }
     }
-    if wrong.is_empty() && changes.max(1) != apices.len() + 1 {
-        wrong.extend(apices);
+    if wrong.is_empty() {
+        let extrema = extrema(&spans);
+        if extrema.len() != apices.len() {
+            let turn = if run.ring { run.end() - run.at(0) } else { f64::INFINITY };
+            wrong = unmatched(&extrema, (&apices, turn), rises);
+            if wrong.is_empty() {
+                wrong = apices;
+            }
+        }
     }
     // What is seen behind the seam of a ring is where the ring begins.
     let (end, turn) = (run.end(), run.end() - run.at(0));
     wrong.iter_mut().filter(|u| **u > end).for_each(|u| *u -= turn);
+    wrong
+}
+
+/// An arc, or several of one curvature, between lower ones or between higher ones.
+struct Extremum {
+    is_top: bool,
+    /// From the arc before to the arc behind.
+    from: f64,
+    to: f64,
+}
+
+/// The extrema of the curvatures of arcs in order.
+fn extrema(spans: &[Span]) -> Vec<Extremum> {
+    let (mut found, mut last) = (Vec::new(), None);
+    for (i, w) in spans.windows(2).enumerate() {
+        let up = w[1].curvature > w[0].curvature;
+        if (w[1].curvature - w[0].curvature).abs() <= w[0].error + w[1].error {
+            continue;
+        }
+        if let Some((before, was_up)) = last.replace((i, up))
+            && was_up != up
+        {
+            let (from, to): (&Span, &Span) = (&spans[before], &w[1]);
+            found.push(Extremum { is_top: was_up, from: from.from, to: to.to });
+        }
+    }
+    found
+}
+
+/// Middles of extrema of the arcs that have no apex of their kind near, and apices that have no extremum of
+/// theirs. A ring goes on behind `turn`.
+fn unmatched(
+    extrema: &[Extremum],
+    (apices, turn): (&[f64], f64),
+    is_top: impl Fn(usize) -> bool,
+) -> Vec<f64> {
+    let mut served = vec![false; apices.len()];
+    let mut wrong = Vec::new();
+    for e in extrema {
+        let mut is_matched = false;
+        for begin in [0.0, turn] {
+            let first = apices.partition_point(|&a| a + begin < e.from);
+            let near = (first..apices.len()).take_while(|&i| apices[i] + begin <= e.to);
+            for i in near.filter(|&i| is_top(i) == e.is_top) {
+                (served[i], is_matched) = (true, true);
+            }
+        }
+        if !is_matched {
+            wrong.push(0.5 * (e.from + e.to));
+        }
+    }
+    wrong.extend(served.iter().zip(apices).filter(|(served, _)| !**served).map(|(_, &apex)| apex));
     wrong
 }
 

@@ -24,7 +24,10 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// Rounds of putting nodes and choosing schemes; cuts that are still wrong then stay so.
-const MAX_ROUNDS: usize = 32;
+const MAX_ROUNDS: usize = 64;
+
+/// After so many rounds, what is wrong gets its nodes and the most careful scheme at once.
+const PATIENCE: usize = 40;
 
 /// An arc over an apex reaches over at most this part of the way to the next apices and to the ends.
 const APEX_SHARE: f64 = 0.4375;
@@ -70,16 +73,14 @@ pub(super) fn fit_run(
     let begin = out.len();
     for round in 0..MAX_ROUNDS {
         out.truncate(begin);
-        if round + 1 == MAX_ROUNDS {
-            plan.give_up_apex_arcs();
-        }
+        let haste = if round < PATIENCE { 0 } else { MAX_STEPS + 1 };
         laid.lay(work, &plan)?;
-        if !laid.lost.is_empty() && plan.improve((&laid.lost, 1), run, track) {
+        if !laid.lost.is_empty() && plan.improve((&laid.lost, haste.max(1)), run, track) {
             continue;
         }
         laid.parts.iter().for_each(|p| out.extend_from_slice(&laid.cells[p.cells.clone()]));
         let wrong = wrong_places(&out[begin..], run, track.noise());
-        if !plan.improve((&wrong, LEAP), run, track) {
+        if !plan.improve((&wrong, haste.max(LEAP)), run, track) {
             break;
         }
     }
@@ -169,13 +170,6 @@ impl Plan {
         Plan { nodes, care: vec![0; n] }
     }
 
-    /// Makes all arcs over apices nodes.
-    fn give_up_apex_arcs(&mut self) {
-        for at in &mut self.nodes {
-            *at = if matches!(at, At::Apex(_)) { At::Node } else { *at };
-        }
-    }
-
     /// The nearest arc over an apex: one too wide is what bends those beside it the wrong way.
     fn gives_way(nodes: &[At], u: f64, run: Run, track: &Track) -> Option<usize> {
         let (after, n) = (run.after(u), run.stretches.len());
@@ -197,7 +191,7 @@ impl Plan {
             let first = first.or_else(|| Some(nearest).filter(|&i| nodes[i] != At::Node));
             if let Some(i) = first {
                 self.nodes[i] = match nodes[i] {
-                    At::Apex(steps) if steps < MAX_STEPS => At::Apex(steps + step),
+                    At::Apex(steps) if steps + step <= MAX_STEPS => At::Apex(steps + step),
                     _ => At::Node,
                 };
                 if i == 0 || i == n {
@@ -212,7 +206,7 @@ impl Plan {
             };
             for i in sides {
                 if care[i] + 1 < CAREFUL.len() {
-                    self.care[i] = care[i] + 1;
+                    self.care[i] = if step > MAX_STEPS { CAREFUL.len() - 1 } else { care[i] + 1 };
                     better = true;
                 }
             }
