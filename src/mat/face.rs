@@ -11,7 +11,8 @@
 //! faces have a hierarchy of boxes over the array.
 
 use super::bvh::{Bvh, SearchDisk};
-use super::graph::{DISK_ROUNDINGS, Graph};
+use super::graph::DISK_ROUNDINGS;
+use super::patch::Patch;
 use super::piece::{Piece, UnitDisk};
 use super::site::{Foot, Site};
 use super::touch::{Contact, Probe, foot_of};
@@ -72,18 +73,10 @@ struct Branch {
 }
 
 impl<'a> Face<'a> {
-    /// Makes all edges of a face, adding branch disks and cutting pieces in `graph`.
-    pub fn solve(sites: &'a [Site], slots: &'a [Slot], graph: &mut Graph) {
-        // Most faces are one edge or none.
-        if let [a, b] = slots {
-            graph.add_edge([a.piece, b.piece], [b.disk, a.disk]);
-        }
-        if slots.len() <= 2 {
-            return;
-        }
-        let boxes = (slots.len() > SCANNED).then(|| {
-            Bvh::build(slots.iter().map(|s| piece_bounds(sites, &graph.pieces[s.piece as usize].piece)))
-        });
+    /// Makes all edges of a face of three pieces or more, adding branch disks and cutting pieces in `patch`.
+    pub fn solve(sites: &'a [Site], slots: &'a [Slot], patch: &mut Patch) {
+        let boxes = (slots.len() > SCANNED)
+            .then(|| Bvh::build(slots.iter().map(|s| piece_bounds(sites, &patch.pieces[s.piece as usize]))));
         let face = Face { sites, slots, boxes };
         let mut open = vec![SubFace { head: [None; 2], range: 0..slots.len(), tail: None }];
         while let Some(sub) = open.pop() {
@@ -91,23 +84,23 @@ impl<'a> Face<'a> {
                 0 | 1 => {}
                 2 => {
                     let (a, b) = (sub.get(slots, 0), sub.get(slots, 1));
-                    graph.add_edge([a.piece, b.piece], [b.disk, a.disk]);
+                    patch.add_edge([a.piece, b.piece], [b.disk, a.disk]);
                 }
-                _ => face.divide(&sub, graph, &mut open),
+                _ => face.divide(&sub, patch, &mut open),
             }
         }
     }
 
     /// Cuts a face of three or more pieces at the branch disk nearest to the end of its first piece.
-    fn divide(&self, sub: &SubFace, graph: &mut Graph, open: &mut Vec<SubFace>) {
-        let branch = self.last_branch(sub, graph);
+    fn divide(&self, sub: &SubFace, patch: &mut Patch, open: &mut Vec<SubFace>) {
+        let branch = self.last_branch(sub, patch);
         let (first, second, third) =
             (sub.get(self.slots, 0), sub.get(self.slots, 1), sub.get(self.slots, branch.third));
-        let disk = graph.add_disk(branch.disk);
-        let first_rest = graph.cut(self.sites, first.piece, branch.feet[0]);
-        let second_rest = graph.cut(self.sites, second.piece, branch.feet[1]);
-        let third_rest = graph.cut(self.sites, third.piece, branch.feet[2]);
-        graph.add_edge([first_rest, second.piece], [disk, first.disk]);
+        let disk = patch.add_disk(branch.disk);
+        let first_rest = patch.cut(self.sites, first.piece, branch.feet[0]);
+        let second_rest = patch.cut(self.sites, second.piece, branch.feet[1]);
+        let third_rest = patch.cut(self.sites, third.piece, branch.feet[2]);
+        patch.add_edge([first_rest, second.piece], [disk, first.disk]);
 
         let (j, h, len) = (branch.third, sub.heads(), sub.len());
         let slot_index = |i: usize| sub.range.start + i.saturating_sub(h);
@@ -132,8 +125,8 @@ impl<'a> Face<'a> {
     }
 
     /// The branch disk where the partner of the first piece changes to the second for good.
-    fn last_branch(&self, sub: &SubFace, graph: &Graph) -> Branch {
-        let piece = |i: usize| &graph.pieces[sub.get(self.slots, i).piece as usize].piece;
+    fn last_branch(&self, sub: &SubFace, patch: &Patch) -> Branch {
+        let piece = |i: usize| &patch.pieces[sub.get(self.slots, i).piece as usize];
         let (first, second) = (piece(0), piece(1));
         let track = Track::of(self.sites, first);
         let (mut third, mut from) = (sub.len() - 1, 0.0);
@@ -142,42 +135,42 @@ impl<'a> Face<'a> {
             let probe = track.at(t);
             let reach = common_reach(self.sites, &track, t, [second, piece(third)]);
             // The order of partners makes the index fall, so this ends.
-            if let Some(nearer) = self.nearest_between(sub, graph, &track, &probe, reach, third) {
+            if let Some(nearer) = self.nearest_between(sub, patch, &track, &probe, reach, third) {
                 (third, from) = (nearer, t);
                 continue;
             }
-            let branch = self.branch(&track, &probe, reach, third, graph, sub);
+            let branch = self.branch(&track, &probe, reach, third, patch, sub);
             if spread(branch.feet) >= WELL_SPREAD {
                 return branch;
             }
-            let tie = self.chord_disk(&branch, graph, sub);
-            return tie.or_else(|| self.best_of_ties(&track, &branch, graph, sub)).unwrap_or(branch);
+            let tie = self.chord_disk(&branch, patch, sub);
+            return tie.or_else(|| self.best_of_ties(&track, &branch, patch, sub)).unwrap_or(branch);
         }
     }
 
     /// A disk of the face's own chords that touches the three pieces of a branch: where many pieces
     /// touch one disk, the first branches are defined by far ones, and later ones must not be made
     /// anew from three neighbors.
-    fn chord_disk(&self, branch: &Branch, graph: &Graph, sub: &SubFace) -> Option<Branch> {
+    fn chord_disk(&self, branch: &Branch, patch: &Patch, sub: &SubFace) -> Option<Branch> {
         let (third, last) = (branch.third, sub.len() - 1);
-        let pieces = [0, 1, third].map(|i| &graph.pieces[sub.get(self.slots, i).piece as usize].piece);
+        let pieces = [0, 1, third].map(|i| &patch.pieces[sub.get(self.slots, i).piece as usize]);
         let sites = pieces.map(|p| &self.sites[p.site as usize]);
         // A piece without length is what a disk left that osculates its arc, and all that reaches into that
         // disk by less than a drawn coordinate is uncertain was passed over.
         let is_point = |i: usize| pieces[i].from.point == pieces[i].to.point && !sites[i].is_vertex;
-        let error = if (0..3).any(is_point) { graph.error } else { TIE_ERROR };
+        let error = if (0..3).any(is_point) { patch.error } else { TIE_ERROR };
         [0, 1, third - 1, third, last].into_iter().find_map(|i| {
-            let disk = graph.disks[sub.get(self.slots, i).disk as usize];
+            let disk = patch.disks[sub.get(self.slots, i).disk as usize];
             let feet = || [0, 1, 2].map(|i| foot_of(sites[i], disk.center, &pieces[i].from, &pieces[i].to));
-            let touches = disk.radius > 0.0 && self.touches(sub, disk, [0, 1, third], graph, error);
+            let touches = disk.radius > 0.0 && self.touches(sub, disk, [0, 1, third], patch, error);
             touches.then(|| Branch { disk, feet: feet(), third })
         })
     }
 
     /// Whether a disk touches three pieces, to within `error`.
-    fn touches(&self, sub: &SubFace, disk: UnitDisk, pieces: [usize; 3], graph: &Graph, error: f64) -> bool {
+    fn touches(&self, sub: &SubFace, disk: UnitDisk, pieces: [usize; 3], patch: &Patch, error: f64) -> bool {
         pieces.into_iter().all(|i| {
-            let Piece { site, from, to, .. } = graph.pieces[sub.get(self.slots, i).piece as usize].piece;
+            let Piece { site, from, to, .. } = patch.pieces[sub.get(self.slots, i).piece as usize];
             let part = Site { start: from, end: to, ..self.sites[site as usize] };
             (part.distance(disk.center) - disk.radius).abs() <= error
         })
@@ -190,7 +183,7 @@ impl<'a> Face<'a> {
         &self,
         track: &Track<'_>,
         branch: &Branch,
-        graph: &Graph,
+        patch: &Patch,
         sub: &SubFace,
     ) -> Option<Branch> {
         let defined = spread(branch.feet);
@@ -199,7 +192,7 @@ impl<'a> Face<'a> {
         let (three, [f0, f1, f2]) = ([0, 1, branch.third], branch.feet);
         let mut best = (defined, [0; 3]);
         self.near_disk(sub, branch.disk, error, |i| {
-            let other = &graph.pieces[sub.get(self.slots, i).piece as usize].piece;
+            let other = &patch.pieces[sub.get(self.slots, i).piece as usize];
             let site = &self.sites[other.site as usize];
             if !three.contains(&i)
                 && (site.carrier_distance(branch.disk.center).0 - branch.disk.radius).abs() <= error
@@ -216,26 +209,26 @@ impl<'a> Face<'a> {
         let tied = best.1;
         let other = match tied {
             [_, 0, _] => return None,
-            [0, 1, _] => self.tangent_to(track, tied[2], graph, sub),
-            _ => self.polished_branch(branch, tied, graph, sub),
+            [0, 1, _] => self.tangent_to(track, tied[2], patch, sub),
+            _ => self.polished_branch(branch, tied, patch, sub),
         };
-        let intrusion = |b: &Branch| self.intrusion(sub, b.disk, error, graph);
-        let touches = self.touches(sub, other.disk, tied, graph, TIE_ERROR)
-            && (other.third == tied[2] || self.touches(sub, other.disk, three, graph, TIE_ERROR));
+        let intrusion = |b: &Branch| self.intrusion(sub, b.disk, error, patch);
+        let touches = self.touches(sub, other.disk, tied, patch, TIE_ERROR)
+            && (other.third == tied[2] || self.touches(sub, other.disk, three, patch, TIE_ERROR));
         (touches && intrusion(&other) <= intrusion(branch)).then_some(other)
     }
 
     /// The branch of the first piece, the second and another one.
-    fn tangent_to(&self, track: &Track<'_>, third: usize, graph: &Graph, sub: &SubFace) -> Branch {
-        let piece = |i: usize| &graph.pieces[sub.get(self.slots, i).piece as usize].piece;
+    fn tangent_to(&self, track: &Track<'_>, third: usize, patch: &Patch, sub: &SubFace) -> Branch {
+        let piece = |i: usize| &patch.pieces[sub.get(self.slots, i).piece as usize];
         let t = equal_reach(self.sites, track, piece(1), piece(third), 0.0);
         let reach = common_reach(self.sites, track, t, [piece(1), piece(third)]);
-        self.branch(track, &track.at(t), reach, third, graph, sub)
+        self.branch(track, &track.at(t), reach, third, patch, sub)
     }
 
     /// A branch moved to the disk that touches three other pieces.
-    fn polished_branch(&self, branch: &Branch, tied: [usize; 3], graph: &Graph, sub: &SubFace) -> Branch {
-        let piece = |i: usize| &graph.pieces[sub.get(self.slots, i).piece as usize].piece;
+    fn polished_branch(&self, branch: &Branch, tied: [usize; 3], patch: &Patch, sub: &SubFace) -> Branch {
+        let piece = |i: usize| &patch.pieces[sub.get(self.slots, i).piece as usize];
         let disk = polished(tied.map(|i| &self.sites[piece(i).site as usize]), branch.disk);
         let feet = [0, 1, branch.third]
             .map(|i| foot_of(&self.sites[piece(i).site as usize], disk.center, &piece(i).from, &piece(i).to));
@@ -243,10 +236,10 @@ impl<'a> Face<'a> {
     }
 
     /// How far pieces of the face reach into a disk.
-    fn intrusion(&self, sub: &SubFace, disk: UnitDisk, error: f64, graph: &Graph) -> f64 {
+    fn intrusion(&self, sub: &SubFace, disk: UnitDisk, error: f64, patch: &Patch) -> f64 {
         let mut deepest = 0.0f64;
         self.near_disk(sub, disk, error, |i| {
-            let Piece { site, from, to, .. } = graph.pieces[sub.get(self.slots, i).piece as usize].piece;
+            let Piece { site, from, to, .. } = patch.pieces[sub.get(self.slots, i).piece as usize];
             let part = Site { start: from, end: to, ..self.sites[site as usize] };
             deepest = deepest.max(disk.radius - part.distance(disk.center));
         });
@@ -274,7 +267,7 @@ impl<'a> Face<'a> {
     fn nearest_between(
         &self,
         sub: &SubFace,
-        graph: &Graph,
+        patch: &Patch,
         track: &Track<'_>,
         probe: &Probe,
         reach: f64,
@@ -282,7 +275,7 @@ impl<'a> Face<'a> {
     ) -> Option<usize> {
         let (mut best, mut found) = (reach, None);
         let mut try_index = |i: usize| {
-            let other = &graph.pieces[sub.get(self.slots, i).piece as usize].piece;
+            let other = &patch.pieces[sub.get(self.slots, i).piece as usize];
             let (radius, _) = track.reach(self.sites, other, probe);
             if radius < best {
                 (best, found) = (radius, Some(i));
@@ -318,13 +311,13 @@ impl<'a> Face<'a> {
         probe: &Probe,
         reach: f64,
         third: usize,
-        graph: &Graph,
+        patch: &Patch,
         sub: &SubFace,
     ) -> Branch {
-        let pieces = [0, 1, third].map(|i| &graph.pieces[sub.get(self.slots, i).piece as usize].piece);
+        let pieces = [0, 1, third].map(|i| &patch.pieces[sub.get(self.slots, i).piece as usize]);
         let sites = pieces.map(|p| &self.sites[p.site as usize]);
         // Round-off may leave no partner at all where everything meets in one disk: that of the chord.
-        let chord_disk = || graph.disks[sub.get(self.slots, 0).disk as usize];
+        let chord_disk = || patch.disks[sub.get(self.slots, 0).disk as usize];
         let mut disk = if reach.is_finite() {
             UnitDisk { center: probe.center(reach), radius: reach }
         } else {

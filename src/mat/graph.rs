@@ -1,12 +1,14 @@
 //! The axis as a graph under construction: disks, pieces of the boundary, and edges between them.
 
-use super::face::{Face, Slot, falling_root};
+use super::face::{Slot, falling_root};
 use super::lamination::Lamination;
-use super::piece::{Piece, UnitDisk, cut_vertex};
+use super::patch::Faces;
+use super::piece::{Piece, UnitDisk};
 use super::site::{Foot, NONE, Site};
 use super::touch::foot_of;
 use super::track::Track;
 use super::union::Sets;
+use rayon::prelude::*;
 
 /// A piece with its place on the boundary and in the axis.
 #[derive(Clone, Copy, Debug)]
@@ -47,8 +49,10 @@ impl Graph {
     pub(super) fn of(sites: &[Site], mut map: Lamination, error: f64) -> Graph {
         let mut graph = Graph { disks: std::mem::take(&mut map.disks), error, ..Graph::default() };
         graph.pieces = Graph::pieces_of(sites, &map);
-        map.forget_contacts();
-        graph.solve_faces(sites, &map);
+        let faces = Graph::faces_of(&map);
+        // What follows needs the faces alone.
+        drop(map);
+        faces.solve(sites, &mut graph);
         graph
     }
 
@@ -67,24 +71,42 @@ impl Graph {
         pieces
     }
 
-    fn solve_faces(&mut self, sites: &[Site], map: &Lamination) {
+    fn faces_of(map: &Lamination) -> Faces {
         let mut seen = vec![false; map.visits.len()];
-        let mut slots = Vec::new();
+        let mut faces = Faces::with_capacity(map.visits.len());
         for row in &map.rows {
             for first in row.clone() {
-                slots.clear();
                 let mut at = first;
                 while !seen[at as usize] {
                     seen[at as usize] = true;
                     let visit = &map.visits[at as usize];
                     if !visit.crossed {
-                        slots.push(Slot { piece: at, disk: visit.disk });
+                        faces.push(Slot { piece: at, disk: visit.disk });
                     }
                     at = if visit.partner + 1 == row.end { row.start } else { visit.partner + 1 };
                 }
-                Face::solve(sites, &slots, self);
+                faces.close();
             }
         }
+        faces
+    }
+
+    /// Makes room for so many more.
+    pub(super) fn reserve(&mut self, [disks, pieces, edges]: [usize; 3]) {
+        self.disks.reserve_exact(disks);
+        self.pieces.reserve_exact(pieces);
+        self.edges.reserve_exact(edges);
+    }
+
+    /// Adds pieces that follow on none yet and have no edge.
+    pub(super) fn add_pieces(&mut self, pieces: &[Piece]) {
+        self.pieces.extend(pieces.iter().map(|&piece| BoundaryPiece { piece, next: NONE, edge: NONE }));
+    }
+
+    /// Lets a rest follow on the piece that it was cut from.
+    pub(super) fn follow(&mut self, cut: u32, rest: u32) {
+        self.pieces[rest as usize].next = self.pieces[cut as usize].next;
+        self.pieces[cut as usize].next = rest;
     }
 
     /// Gives back what is reserved for more.
@@ -118,14 +140,10 @@ impl Graph {
     pub(super) fn cut(&mut self, sites: &[Site], id: u32, foot: Foot) -> u32 {
         let rest_id = self.pieces.len() as u32;
         let cut = &mut self.pieces[id as usize];
-        let vertex = cut_vertex(&sites[cut.piece.site as usize]);
-        let mut rest = *cut;
-        cut.piece.to = foot;
-        cut.piece.vertices[1] = vertex;
-        cut.next = rest_id;
-        rest.piece.from = foot;
-        rest.piece.vertices[0] = vertex;
+        let rest = cut.piece.cut(sites, foot);
+        let rest = BoundaryPiece { piece: rest, ..*cut };
         self.pieces.push(rest);
+        self.follow(id, rest_id);
         rest_id
     }
 
@@ -169,23 +187,33 @@ impl Graph {
     /// Along an edge the radius grows as `n_b x n_a`, with the normals at the two feet; a bisector of
     /// two carriers has at most one place where they are opposite.
     pub(super) fn split_at_extrema(&mut self, sites: &[Site]) {
-        for id in 0..self.edges.len() {
+        let shared = &*self;
+        let edges = (0..self.edges.len()).into_par_iter().with_min_len(EDGES);
+        let extrema: Vec<Extremum> = edges.filter_map(|id| shared.extremum(sites, id)).collect();
+        for Extremum { id, disk, feet } in extrema {
             let edge = self.edges[id];
-            let [a, b] = edge.pieces.map(|p| self.pieces[p as usize].piece);
-            let mut growth = [b.to.normal.cross(a.from.normal), b.from.normal.cross(a.to.normal)];
-            // From a corner the radius can only grow, however flat its cusp.
-            let radii = edge.disks.map(|d| self.disks[d as usize].radius);
-            growth[0] = if radii[0] == 0.0 { 1.0 } else { growth[0] };
-            growth[1] = if radii[1] == 0.0 { -1.0 } else { growth[1] };
-            if growth[0] * growth[1] < 0.0 && growth.iter().all(|g| g.abs() > NORMAL_ERROR) {
-                self.split_at_extremum(sites, id, growth[0] < 0.0);
-            }
+            let middle = self.add_disk(disk);
+            let rest_a = self.cut(sites, edge.pieces[0], feet[0]);
+            let rest_b = self.cut(sites, edge.pieces[1], feet[1]);
+            self.edges[id] = GraphEdge { pieces: [edge.pieces[0], rest_b], disks: [edge.disks[0], middle] };
+            self.pieces[rest_b as usize].edge = id as u32;
+            self.add_edge([rest_a, edge.pieces[1]], [middle, edge.disks[1]]);
         }
     }
 
-    fn split_at_extremum(&mut self, sites: &[Site], id: usize, minimum: bool) {
+    /// Where the radius has an extremum inside an edge.
+    fn extremum(&self, sites: &[Site], id: usize) -> Option<Extremum> {
         let edge = self.edges[id];
         let [a, b] = edge.pieces.map(|p| self.pieces[p as usize].piece);
+        let mut growth = [b.to.normal.cross(a.from.normal), b.from.normal.cross(a.to.normal)];
+        // From a corner the radius can only grow, however flat its cusp.
+        let radii = edge.disks.map(|d| self.disks[d as usize].radius);
+        growth[0] = if radii[0] == 0.0 { 1.0 } else { growth[0] };
+        growth[1] = if radii[1] == 0.0 { -1.0 } else { growth[1] };
+        if !(growth[0] * growth[1] < 0.0 && growth.iter().all(|g| g.abs() > NORMAL_ERROR)) {
+            return None;
+        }
+        let minimum = growth[0] < 0.0;
         // The longer piece is the better ruler.
         let extent = |p: &Piece| p.from.point.distance(p.to.point);
         let swap = extent(&b) > extent(&a);
@@ -205,22 +233,25 @@ impl Graph {
         });
         let probe = track.at(t);
         let (radius, _) = track.reach(sites, across, &probe);
-        let ends = edge.disks.map(|d| self.disks[d as usize].radius);
-        let beyond = if minimum { ends[0].min(ends[1]) - radius } else { radius - ends[0].max(ends[1]) };
+        let beyond = if minimum { radii[0].min(radii[1]) - radius } else { radius - radii[0].max(radii[1]) };
         // Where the radius is as good as constant, round-off makes extrema that are none.
         if !(beyond > self.error && radius.is_finite()) {
-            return;
+            return None;
         }
         let disk = UnitDisk { center: probe.center(radius), radius };
         let feet = [(here, along), (there, across)].map(|(s, p)| foot_of(s, disk.center, &p.from, &p.to));
-        let middle = self.add_disk(disk);
-        let [foot_a, foot_b] = if swap { [feet[1], feet[0]] } else { feet };
-        let rest_a = self.cut(sites, edge.pieces[0], foot_a);
-        let rest_b = self.cut(sites, edge.pieces[1], foot_b);
-        self.edges[id] = GraphEdge { pieces: [edge.pieces[0], rest_b], disks: [edge.disks[0], middle] };
-        self.pieces[rest_b as usize].edge = id as u32;
-        self.add_edge([rest_a, edge.pieces[1]], [middle, edge.disks[1]]);
+        Some(Extremum { id, disk, feet: if swap { [feet[1], feet[0]] } else { feet } })
     }
+}
+
+/// Edges to look at in one go.
+const EDGES: usize = 256;
+
+/// A disk inside an edge where the radius has an extremum, and its feet on the two pieces.
+struct Extremum {
+    id: usize,
+    disk: UnitDisk,
+    feet: [Foot; 2],
 }
 
 /// Round-off of the sine between two unit normals of four roundings each.

@@ -410,11 +410,6 @@ impl Lamination {
         parts
     }
 
-    /// Gives up what pieces are made from: the faces need the visits alone.
-    pub fn forget_contacts(&mut self) {
-        self.contacts = Vec::new();
-    }
-
     /// Number of joints and contacts.
     pub fn item_count(&self, sites: &[Site]) -> usize {
         sites.len() + self.contacts.len()

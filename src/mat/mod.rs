@@ -26,6 +26,7 @@ mod frame;
 mod graph;
 mod kinds;
 mod lamination;
+mod patch;
 mod piece;
 mod query;
 mod radii;

@@ -20,6 +20,16 @@ pub(crate) struct Piece {
     pub vertices: [u32; 2],
 }
 
+impl Piece {
+    /// Ends the piece at a foot and returns the rest.
+    pub fn cut(&mut self, sites: &[Site], foot: Foot) -> Piece {
+        let vertex = cut_vertex(&sites[self.site as usize]);
+        let rest = Piece { from: foot, vertices: [vertex, self.vertices[1]], ..*self };
+        (self.to, self.vertices[1]) = (foot, vertex);
+        rest
+    }
+}
+
 /// Vertex of the boundary where a site is cut: a cone is cut at its vertex, other sites at none.
 pub(super) fn cut_vertex(site: &Site) -> u32 {
     if site.is_vertex { site.vertices[0] } else { NONE }
