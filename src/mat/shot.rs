@@ -28,6 +28,9 @@ const RUN: usize = 512;
 /// would look at every site.
 const NEIGHBORS: usize = 4;
 
+/// Disks so many times as large as the site at their joint may be held back by neighbors of that site.
+const ROUND: f64 = 16.0;
+
 /// Larger than any disk in the unit frame.
 const OUTSIDE: f64 = 2.0;
 
@@ -98,7 +101,9 @@ fn shoot(sites: &[Site], bvh: &Bvh, joint: u32, blur: f64, hints: &Hints) -> Sho
         try_site(&mut best, newest.next);
     }
     let (mut back, mut ahead) = (joint, site.next);
-    for _ in 0..if osculating.is_some() { NEIGHBORS } else { 0 } {
+    let beside = site.start.point.distance(site.end.point).max(f64::MIN_POSITIVE);
+    let neighbors = if osculating.is_some() || best.radius > ROUND * beside { NEIGHBORS } else { 0 };
+    for _ in 0..neighbors {
         (back, ahead) = (sites[back as usize].prev, sites[ahead as usize].next);
         try_site(&mut best, back);
         try_site(&mut best, ahead);

@@ -7,7 +7,7 @@
 
 use super::frame::Frame;
 use super::site::{Foot, Joint, NONE, Site};
-use super::splice::{Drawn, TANGENT_ROUNDINGS, place_key, splice};
+use super::splice::{Drawn, TANGENT_ROUNDINGS, same_places, splice};
 use super::{SiteKind, SiteRef};
 use crate::boundary::{Pocket, TOUCHING_ULPS};
 use crate::geom::{Point, Vector};
@@ -186,11 +186,8 @@ impl Sites {
 
     /// Convex joints of different sectors at one place.
     fn find_touching(&mut self) {
-        let convex = |i: &u32| self.sites[*i as usize].joint == Joint::Convex;
-        let key = |i: &u32| place_key(self.sites[*i as usize].end.point);
-        let mut order: Vec<u32> = (0..self.sites.len() as u32).filter(convex).collect();
-        order.sort_unstable_by_key(|i| (key(i), *i));
-        for group in order.chunk_by(|a, b| key(a) == key(b)).filter(|g| g.len() > 1) {
+        let convex = (0u32..).zip(&self.sites).filter(|(_, site)| site.joint == Joint::Convex);
+        for group in same_places(convex.map(|(i, site)| (i, site.end.point))) {
             self.touching.extend(group.iter().map(|&i| (i, group[0])));
         }
     }

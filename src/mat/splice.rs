@@ -11,6 +11,7 @@
 use super::frame::Frame;
 use crate::boundary::TOUCHING_ULPS;
 use crate::geom::{ArcSpline, Element, Point, Vector};
+use std::collections::HashSet;
 
 /// A drawn element in the unit frame.
 #[derive(Clone, Copy, Debug)]
@@ -54,16 +55,36 @@ impl Row {
 }
 
 /// For each place where more than one element begins: those elements.
-fn touching_vertices(elements: &[Drawn]) -> Vec<Vec<usize>> {
-    let key = |i: &usize| place_key(elements[*i].element.start);
-    let mut order: Vec<usize> = (0..elements.len()).collect();
-    order.sort_unstable_by_key(|i| (key(i), *i));
-    order.chunk_by(|a, b| key(a) == key(b)).filter(|g| g.len() > 1).map(<[usize]>::to_vec).collect()
+fn touching_vertices(elements: &[Drawn]) -> Vec<Vec<u32>> {
+    same_places((0u32..).zip(elements.iter().map(|drawn| drawn.element.start)))
+}
+
+/// Numbers whose places are equal to the last bit, those of each place in order.
+pub(super) fn same_places(places: impl Iterator<Item = (u32, Point)> + Clone) -> Vec<Vec<u32>> {
+    // Hash and number in one word, which sorts ten times as fast as places do.
+    let mut order: Vec<u64> =
+        places.clone().map(|(i, p)| hash(place_key(p)) & !u64::from(u32::MAX) | u64::from(i)).collect();
+    order.sort_unstable();
+    let of_one_hash = order.chunk_by(|a, b| a >> 32 == b >> 32).filter(|group| group.len() > 1);
+    let alike: HashSet<u32> = of_one_hash.flatten().map(|&word| word as u32).collect();
+    let mut found: Vec<([u64; 2], u32)> =
+        places.filter(|(i, _)| alike.contains(i)).map(|(i, p)| (place_key(p), i)).collect();
+    found.sort_unstable();
+    let groups = found.chunk_by(|a, b| a.0 == b.0).filter(|group| group.len() > 1);
+    groups.map(|group| group.iter().map(|&(_, i)| i).collect()).collect()
 }
 
 /// Bits of a place, the same for both zeros.
-pub(super) fn place_key(p: Point) -> [u64; 2] {
+fn place_key(p: Point) -> [u64; 2] {
     [(p.x + 0.0).to_bits(), (p.y + 0.0).to_bits()]
+}
+
+/// Bits that are spread alike over the word, whatever the places are.
+fn hash([x, y]: [u64; 2]) -> u64 {
+    /// Odd, and the golden part of the words.
+    const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
+    let mixed = (x.wrapping_mul(GOLDEN).rotate_left(29) ^ y).wrapping_mul(GOLDEN);
+    (mixed ^ mixed >> 32).wrapping_mul(GOLDEN)
 }
 
 /// One end of an element at a touching point.
@@ -80,9 +101,9 @@ struct Ray {
 }
 
 /// Makes every element that arrives at the touching point go on by the next one clockwise.
-fn turn_into_sectors(elements: &[Drawn], starting: &[usize], prev: &[usize], next: &mut [usize], noise: f64) {
+fn turn_into_sectors(elements: &[Drawn], starting: &[u32], prev: &[usize], next: &mut [usize], noise: f64) {
     let mut rays = Vec::with_capacity(2 * starting.len());
-    for &out in starting {
+    for out in starting.iter().map(|&out| out as usize) {
         rays.push(ray(&elements[out].element, out, false));
         rays.push(ray(&elements[prev[out]].element.reversed(), prev[out], true));
     }
