@@ -14,6 +14,7 @@ use super::bvh::{Bvh, SearchDisk};
 use super::graph::DISK_ROUNDINGS;
 use super::patch::Patch;
 use super::piece::{Piece, UnitDisk};
+use super::root::falling_root;
 use super::site::{Foot, Site};
 use super::touch::{Contact, Probe, foot_of};
 use super::track::Track;
@@ -31,7 +32,7 @@ pub(super) struct Slot {
 const SCANNED: usize = 32;
 
 /// A sub-face: up to two new pieces, a range of the face, and a new last piece.
-struct SubFace {
+pub(super) struct SubFace {
     head: [Option<Slot>; 2],
     range: std::ops::Range<usize>,
     tail: Option<Slot>,
@@ -39,8 +40,8 @@ struct SubFace {
 
 /// A face being solved.
 pub(super) struct Face<'a> {
-    sites: &'a [Site],
-    slots: &'a [Slot],
+    pub sites: &'a [Site],
+    pub slots: &'a [Slot],
     boxes: Option<Bvh>,
 }
 
@@ -49,11 +50,11 @@ impl SubFace {
         self.head.iter().flatten().count()
     }
 
-    fn len(&self) -> usize {
+    pub fn len(&self) -> usize {
         self.heads() + self.range.len() + usize::from(self.tail.is_some())
     }
 
-    fn get(&self, slots: &[Slot], i: usize) -> Slot {
+    pub fn get(&self, slots: &[Slot], i: usize) -> Slot {
         let h = self.heads();
         if let (true, Some(slot)) = (i < h, self.head.get(i).copied().flatten()) {
             return slot;
@@ -66,10 +67,10 @@ impl SubFace {
 }
 
 /// A disk that touches the first piece, the second, and the one at `third`.
-struct Branch {
-    disk: UnitDisk,
-    feet: [Foot; 3],
-    third: usize,
+pub(super) struct Branch {
+    pub disk: UnitDisk,
+    pub feet: [Foot; 3],
+    pub third: usize,
 }
 
 impl<'a> Face<'a> {
@@ -148,106 +149,8 @@ impl<'a> Face<'a> {
         }
     }
 
-    /// A disk of the face's own chords that touches the three pieces of a branch: where many pieces
-    /// touch one disk, the first branches are defined by far ones, and later ones must not be made
-    /// anew from three neighbors.
-    fn chord_disk(&self, branch: &Branch, patch: &Patch, sub: &SubFace) -> Option<Branch> {
-        let (third, last) = (branch.third, sub.len() - 1);
-        let pieces = [0, 1, third].map(|i| &patch.pieces[sub.get(self.slots, i).piece as usize]);
-        let sites = pieces.map(|p| &self.sites[p.site as usize]);
-        // A piece without length is what a disk left that osculates its arc, and all that reaches into that
-        // disk by less than a drawn coordinate is uncertain was passed over.
-        let is_point = |i: usize| pieces[i].from.point == pieces[i].to.point && !sites[i].is_vertex;
-        let error = if (0..3).any(is_point) { patch.error } else { TIE_ERROR };
-        [0, 1, third - 1, third, last].into_iter().find_map(|i| {
-            let disk = patch.disks[sub.get(self.slots, i).disk as usize];
-            let feet = || [0, 1, 2].map(|i| foot_of(sites[i], disk.center, &pieces[i].from, &pieces[i].to));
-            let touches = disk.radius > 0.0 && self.touches(sub, disk, [0, 1, third], patch, error);
-            touches.then(|| Branch { disk, feet: feet(), third })
-        })
-    }
-
-    /// Whether a disk touches three pieces, to within `error`.
-    fn touches(&self, sub: &SubFace, disk: UnitDisk, pieces: [usize; 3], patch: &Patch, error: f64) -> bool {
-        pieces.into_iter().all(|i| {
-            let Piece { site, from, to, .. } = patch.pieces[sub.get(self.slots, i).piece as usize];
-            let part = Site { start: from, end: to, ..self.sites[site as usize] };
-            (part.distance(disk.center) - disk.radius).abs() <= error
-        })
-    }
-
-    /// Where more pieces touch the same disk, to round-off, than the three that define it: the disk
-    /// through two of these and the one that defines it best, if it touches the three and is as empty. It
-    /// need not: a disk that three pieces define badly is near to many that it has nothing to do with.
-    fn best_of_ties(
-        &self,
-        track: &Track<'_>,
-        branch: &Branch,
-        patch: &Patch,
-        sub: &SubFace,
-    ) -> Option<Branch> {
-        let defined = spread(branch.feet);
-        // What a disk is uncertain by when it is divided by so little.
-        let error = TIE_ERROR / defined.max(TIE_ERROR);
-        let (three, [f0, f1, f2]) = ([0, 1, branch.third], branch.feet);
-        let mut best = (defined, [0; 3]);
-        self.near_disk(sub, branch.disk, error, |i| {
-            let other = &patch.pieces[sub.get(self.slots, i).piece as usize];
-            let site = &self.sites[other.site as usize];
-            if !three.contains(&i)
-                && (site.carrier_distance(branch.disk.center).0 - branch.disk.radius).abs() <= error
-            {
-                let foot = foot_of(site, branch.disk.center, &other.from, &other.to);
-                for (pair, feet) in [([0, 1], [f0, f1]), ([0, 2], [f0, f2]), ([1, 2], [f1, f2])] {
-                    let spread = spread([feet[0], feet[1], foot]);
-                    if spread > best.0 {
-                        best = (spread, [three[pair[0]], three[pair[1]], i]);
-                    }
-                }
-            }
-        });
-        let tied = best.1;
-        let other = match tied {
-            [_, 0, _] => return None,
-            [0, 1, _] => self.tangent_to(track, tied[2], patch, sub),
-            _ => self.polished_branch(branch, tied, patch, sub),
-        };
-        let intrusion = |b: &Branch| self.intrusion(sub, b.disk, error, patch);
-        let touches = self.touches(sub, other.disk, tied, patch, TIE_ERROR)
-            && (other.third == tied[2] || self.touches(sub, other.disk, three, patch, TIE_ERROR));
-        (touches && intrusion(&other) <= intrusion(branch)).then_some(other)
-    }
-
-    /// The branch of the first piece, the second and another one.
-    fn tangent_to(&self, track: &Track<'_>, third: usize, patch: &Patch, sub: &SubFace) -> Branch {
-        let piece = |i: usize| &patch.pieces[sub.get(self.slots, i).piece as usize];
-        let t = equal_reach(self.sites, track, piece(1), piece(third), 0.0);
-        let reach = common_reach(self.sites, track, t, [piece(1), piece(third)]);
-        self.branch(track, &track.at(t), reach, third, patch, sub)
-    }
-
-    /// A branch moved to the disk that touches three other pieces.
-    fn polished_branch(&self, branch: &Branch, tied: [usize; 3], patch: &Patch, sub: &SubFace) -> Branch {
-        let piece = |i: usize| &patch.pieces[sub.get(self.slots, i).piece as usize];
-        let disk = polished(tied.map(|i| &self.sites[piece(i).site as usize]), branch.disk);
-        let feet = [0, 1, branch.third]
-            .map(|i| foot_of(&self.sites[piece(i).site as usize], disk.center, &piece(i).from, &piece(i).to));
-        Branch { disk, feet, third: branch.third }
-    }
-
-    /// How far pieces of the face reach into a disk.
-    fn intrusion(&self, sub: &SubFace, disk: UnitDisk, error: f64, patch: &Patch) -> f64 {
-        let mut deepest = 0.0f64;
-        self.near_disk(sub, disk, error, |i| {
-            let Piece { site, from, to, .. } = patch.pieces[sub.get(self.slots, i).piece as usize];
-            let part = Site { start: from, end: to, ..self.sites[site as usize] };
-            deepest = deepest.max(disk.radius - part.distance(disk.center));
-        });
-        deepest
-    }
-
     /// Calls `visit` for the pieces of a sub-face that come near to a disk.
-    fn near_disk(&self, sub: &SubFace, disk: UnitDisk, margin: f64, mut visit: impl FnMut(usize)) {
+    pub fn near_disk(&self, sub: &SubFace, disk: UnitDisk, margin: f64, mut visit: impl FnMut(usize)) {
         let h = sub.heads();
         match &self.boxes {
             Some(boxes) if sub.range.len() > SCANNED => {
@@ -305,7 +208,7 @@ impl<'a> Face<'a> {
         found
     }
 
-    fn branch(
+    pub fn branch(
         &self,
         track: &Track<'_>,
         probe: &Probe,
@@ -334,24 +237,27 @@ impl<'a> Face<'a> {
 
 /// Round-off of a disk as it is computed, in the unit frame, whatever that of the drawn coordinates is:
 /// where a disk is farther from a piece, the drawing has no tie, and a flat corner makes much of little.
-const TIE_ERROR: f64 = DISK_ROUNDINGS * f64::EPSILON;
+pub(super) const TIE_ERROR: f64 = DISK_ROUNDINGS * f64::EPSILON;
 
 /// Three normals that span a triangle of this area or more define a disk but for two bits.
 const WELL_SPREAD: f64 = 0.25;
 
 /// Twice the area of the triangle of the normals of a disk at three feet: what its center and radius
 /// are divided by when they are computed from the three sites.
-fn spread(feet: [Foot; 3]) -> f64 {
+pub(super) fn spread(feet: [Foot; 3]) -> f64 {
     let [n0, n1, n2] = feet.map(|f| f.normal);
     (n1 - n0).cross(n2 - n0).abs()
 }
 
-/// Steps of the search for a place of equal reach: twice the bits of a parameter.
-const STEPS: usize = 106;
-
 /// Parameter beyond `from` where the disks to both pieces are equal: at `from` the one to `before` is
 /// smaller, at the end the one to `after`.
-fn equal_reach(sites: &[Site], track: &Track<'_>, after: &Piece, before: &Piece, from: f64) -> f64 {
+pub(super) fn equal_reach(
+    sites: &[Site],
+    track: &Track<'_>,
+    after: &Piece,
+    before: &Piece,
+    from: f64,
+) -> f64 {
     let difference = |t: f64| {
         let probe = track.at(t);
         let (a, b) = (track.reach(sites, after, &probe).0, track.reach(sites, before, &probe).0);
@@ -367,7 +273,7 @@ fn equal_reach(sites: &[Site], track: &Track<'_>, after: &Piece, before: &Piece,
 /// Radius of the disk to both of two pieces at a place where they are equal. Next to a flat corner the reach
 /// to the other side goes from nothing to infinity within a few roundings of the place: then that to the
 /// piece that does not is the one.
-fn common_reach(sites: &[Site], track: &Track<'_>, t: f64, pieces: [&Piece; 2]) -> f64 {
+pub(super) fn common_reach(sites: &[Site], track: &Track<'_>, t: f64, pieces: [&Piece; 2]) -> f64 {
     let reach = |t: f64| {
         let probe = track.at(t);
         pieces.map(|p| track.reach(sites, p, &probe).0)
@@ -386,48 +292,9 @@ fn common_reach(sites: &[Site], track: &Track<'_>, t: f64, pieces: [&Piece; 2]) 
     }
 }
 
-/// Where a function falls through zero between two places; it need not be continuous, and may be infinite.
-/// Inverse quadratic interpolation where three values admit it (Chandrupatla 1997); where it is infinite on
-/// one side of the root, the line through two values of the other; bisection elsewhere.
-pub(crate) fn falling_root(low: f64, high: f64, f: impl Fn(f64) -> f64) -> f64 {
-    let [mut newest, mut other] = [(high, f64::NEG_INFINITY), (low, f64::INFINITY)];
-    let mut part = 0.5;
-    for step in 0..STEPS {
-        let at = newest.0 + part * (other.0 - newest.0);
-        let value = f(at);
-        if value.abs() <= f64::EPSILON {
-            return at;
-        }
-        let mut before = newest;
-        if (value > 0.0) != (newest.1 > 0.0) {
-            (before, other) = (other, newest);
-        }
-        newest = (at, value);
-        let least = 0.5 * f64::EPSILON * newest.0.max(other.0) / (other.0 - newest.0).abs();
-        if least >= 0.5 {
-            break;
-        }
-        let is_late = step % 4 == 3;
-        let guess = part_to_root(newest, other, before).filter(|&t| t > 0.0 && t < 1.0 && !is_late);
-        part = guess.map_or(0.5, |t| t.clamp(least, 1.0 - least));
-    }
-    0.5 * (newest.0 + other.0)
-}
-
-/// Where a function may be zero on the way from the newest place to the one on the other side of the root.
-fn part_to_root(newest: (f64, f64), other: (f64, f64), before: (f64, f64)) -> Option<f64> {
-    let ((a, f), (b, g), (c, h)) = (newest, other, before);
-    if !g.is_finite() {
-        return Some(f * (c - a) / ((f - h) * (b - a)));
-    }
-    let (place, value) = ((a - b) / (c - b), (f - g) / (h - g));
-    let bends_little = value * value < place && (1.0 - value) * (1.0 - value) < 1.0 - place;
-    bends_little.then(|| f / (g - f) * h / (g - h) + (c - a) / (b - a) * f / (h - f) * g / (h - g))
-}
-
 /// Newton's step for the disk tangent to three carriers: `distance_i(c) = r`, gradients are normals.
 /// Taken only while it makes the residual smaller.
-fn polished(sites: [&Site; 3], mut disk: UnitDisk) -> UnitDisk {
+pub(super) fn polished(sites: [&Site; 3], mut disk: UnitDisk) -> UnitDisk {
     let residuals =
         |d: &UnitDisk| sites.map(|s| s.carrier_distance(d.center)).map(|(s, n)| (d.radius - s, n));
     let worst = |r: &[(f64, Vector); 3]| r.iter().fold(0.0f64, |w, (e, _)| w.max(e.abs()));

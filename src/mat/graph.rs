@@ -1,9 +1,10 @@
 //! The axis as a graph under construction: disks, pieces of the boundary, and edges between them.
 
-use super::face::{Slot, falling_root};
+use super::face::Slot;
 use super::lamination::Lamination;
 use super::patch::Faces;
 use super::piece::{Piece, UnitDisk};
+use super::root::falling_root;
 use super::site::{Foot, NONE, Site};
 use super::touch::foot_of;
 use super::track::Track;

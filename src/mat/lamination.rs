@@ -15,23 +15,15 @@
 //! Source: the division by maximal disks of Aichholzer et al., *Medial axis computation for planar
 //! free-form shapes* (CAD 41, 2009), section 3, with all disks chosen up front.
 
+use super::contacts::{ContactItem, Order, contacts};
 use super::piece::{Piece, UnitDisk, cut_vertex};
 use super::shot::Shot;
-use super::site::{Foot, Joint, NONE, Site};
+use super::site::NONE;
+use super::site::Site;
 use super::sites::Sites;
-use super::touch::{Contact, foot_of};
 use super::union::Sets;
 use crate::geom::Point;
 use std::collections::HashMap;
-
-/// Where a joint disk touches a site.
-#[derive(Clone, Copy, Debug)]
-struct ContactItem {
-    site: u32,
-    position: f64,
-    foot: Foot,
-    joint: u32,
-}
 
 /// A stop on the walk around the cut pocket: a joint or a contact, and the piece that ends there.
 #[derive(Clone, Copy, Debug)]
@@ -72,131 +64,6 @@ impl Lamination {
 
 fn joint_of(contacts: &[ContactItem], item: u32, sites: u32) -> u32 {
     if item < sites { item } else { contacts[(item - sites) as usize].joint }
-}
-
-/// The contacts of all joint disks.
-fn contacts(sites: &[Site], shots: &[Shot]) -> Vec<ContactItem> {
-    let mut out = Vec::with_capacity(sites.len());
-    for (joint, shot) in (0u32..).zip(shots) {
-        if shot.site == NONE {
-            continue;
-        }
-        if shot.contact == Contact::Whole {
-            out.extend(whole_arc_contacts(sites, joint, shot));
-            continue;
-        }
-        let end = &sites[joint as usize].end;
-        let center = end.point + end.normal * shot.radius;
-        out.push(contact_at(sites, joint, shot, center));
-    }
-    out
-}
-
-/// A disk that osculates an arc touches it at the far end too: that end is its contact. At a joint
-/// of two parts of one arc it touches both parts.
-fn whole_arc_contacts(sites: &[Site], joint: u32, shot: &Shot) -> impl Iterator<Item = ContactItem> {
-    let before = &sites[joint as usize];
-    let both = before.joint == Joint::Smooth { same_circle: true };
-    let far_start = (both || shot.site == joint).then_some(ContactItem {
-        site: joint,
-        position: 0.0,
-        foot: before.start,
-        joint,
-    });
-    let after = &sites[before.next as usize];
-    let far_end = (both || shot.site != joint).then_some(ContactItem {
-        site: before.next,
-        position: 1.0,
-        foot: after.end,
-        joint,
-    });
-    far_start.into_iter().chain(far_end)
-}
-
-/// The contact of a disk with the site that its shot names, or with the reflex vertex there.
-fn contact_at(sites: &[Site], joint: u32, shot: &Shot, center: Point) -> ContactItem {
-    let mut id = shot.site;
-    let mut site = &sites[id as usize];
-    match shot.contact {
-        Contact::Start if sites[site.prev as usize].is_vertex => id = site.prev,
-        Contact::End if sites[site.next as usize].is_vertex => id = site.next,
-        Contact::Start => return ContactItem { site: id, position: 0.0, foot: site.start, joint },
-        Contact::End => return ContactItem { site: id, position: 1.0, foot: site.end, joint },
-        Contact::Inside | Contact::Whole => {}
-    }
-    site = &sites[id as usize];
-    if site.is_vertex {
-        id = part_of_cone(sites, id, center);
-        site = &sites[id as usize];
-    }
-    let foot = foot_of(site, center, &site.start, &site.end);
-    ContactItem { site: id, position: site.position(&foot), foot, joint }
-}
-
-/// The part of a reflex vertex's cone that holds the normal to a center.
-fn part_of_cone(sites: &[Site], mut id: u32, center: Point) -> u32 {
-    let w = center - sites[id as usize].start.point;
-    while sites[sites[id as usize].prev as usize].is_vertex && sites[id as usize].start.normal.cross(w) > 0.0
-    {
-        id = sites[id as usize].prev;
-    }
-    while sites[sites[id as usize].next as usize].is_vertex && w.cross(sites[id as usize].end.normal) > 0.0 {
-        id = sites[id as usize].next;
-    }
-    id
-}
-
-/// All items in boundary order: the contacts of each site by position, then the joint at its end.
-struct Order {
-    items: Vec<u32>,
-    place: Vec<u32>,
-    /// Where the items of a site begin.
-    first: Vec<u32>,
-}
-
-impl Order {
-    fn of(sites: &[Site], contacts: &[ContactItem]) -> Order {
-        let n = sites.len();
-        let mut first = vec![0u32; n + 1];
-        for c in contacts {
-            first[c.site as usize + 1] += 1;
-        }
-        for s in 0..n {
-            first[s + 1] += first[s] + 1;
-        }
-        let mut items = vec![NONE; n + contacts.len()];
-        let mut free = first.clone();
-        for (i, c) in contacts.iter().enumerate() {
-            items[free[c.site as usize] as usize] = (n + i) as u32;
-            free[c.site as usize] += 1;
-        }
-        let contact = |item: &u32| &contacts[*item as usize - n];
-        for s in 0..n {
-            let end = first[s + 1] as usize - 1;
-            items[end] = s as u32;
-            let run = &mut items[first[s] as usize..end];
-            if run.len() > 1 {
-                // Chords do not cross: of contacts in one place, the one of the later joint is first.
-                run.sort_unstable_by(|a, b| {
-                    let (a, b) = (contact(a), contact(b));
-                    a.position.total_cmp(&b.position).then(b.joint.cmp(&a.joint))
-                });
-            }
-        }
-        let mut place = vec![0; items.len()];
-        for (at, &item) in items.iter().enumerate() {
-            place[item as usize] = at as u32;
-        }
-        Order { items, place, first }
-    }
-
-    /// Where the boundary goes on after an item.
-    fn after(&self, item: u32, sites: &[Site]) -> u32 {
-        match sites.get(item as usize) {
-            Some(joint) => self.first[joint.next as usize],
-            None => self.place[item as usize] + 1,
-        }
-    }
 }
 
 type Rows = (Vec<Visit>, Vec<std::ops::Range<u32>>);

@@ -20,6 +20,7 @@
 mod bvh;
 mod check;
 mod conic;
+mod contacts;
 mod division;
 mod face;
 mod frame;
@@ -30,12 +31,14 @@ mod patch;
 mod piece;
 mod query;
 mod radii;
+mod root;
 mod shot;
 mod site;
 mod sites;
 mod splice;
 #[cfg(test)]
 mod tests;
+mod ties;
 mod touch;
 mod track;
 mod transform;
@@ -46,9 +49,9 @@ pub use check::Residuals;
 pub use transform::{Counts, Mat, Mismatch};
 pub use vertex::{AxisEdge, AxisVertex, Disk, Kind, SiteKind, SiteRef};
 
-pub(crate) use face::falling_root;
 pub(crate) use graph::{BoundaryPiece, GraphEdge};
 pub(crate) use piece::Piece;
+pub(crate) use root::falling_root;
 pub(crate) use site::{Foot, NONE, Site};
 pub(crate) use track::Track;
 pub(crate) use union::Sets;

@@ -47,6 +47,7 @@ mod nurbs;
 mod order;
 mod piece;
 mod pieces;
+mod plan;
 mod roots;
 mod run;
 mod short;

@@ -18,6 +18,7 @@ use super::cuts::{CutKind, Stretch};
 use super::density::Density;
 use super::layout::{Ends, Lost};
 use super::order::wrong_places;
+use super::plan::{At, CAREFUL, MAX_STEPS, Plan};
 use super::spiral::{Cell, Fitter, Scheme};
 use super::track::{Side, Track};
 use std::collections::BTreeMap;
@@ -36,13 +37,9 @@ const APEX_SHARE: f64 = 0.4375;
 /// fit: one step at a time, or many where curvatures are wrong.
 const STEP: f64 = std::f64::consts::FRAC_1_SQRT_2;
 const LEAP: i32 = 2;
-const MAX_STEPS: i32 = 8;
 
 /// Up to so many steps cost less than one more arc beside.
 const YIELDING_STEPS: i32 = 2;
-
-/// Schemes for a part of a run, each more careful with curvatures than the one before.
-const CAREFUL: [Scheme; 4] = [Scheme::Tilted, Scheme::Plain, Scheme::Osculating, Scheme::Bisection];
 
 /// Stretches that biarcs may run over.
 #[derive(Clone, Copy)]
@@ -114,18 +111,18 @@ impl Run<'_> {
     }
 
     /// The first stretch, from the second on, that does not begin before a parameter.
-    fn after(&self, u: f64) -> usize {
+    pub fn after(&self, u: f64) -> usize {
         self.stretches[1..].partition_point(|s| s.from.u < u) + 1
     }
 
     /// The squared distance in the plane from where stretch `i` begins, as parameters say nothing about the
     /// shape.
-    fn far(&self, i: usize, u: f64, track: &Track) -> f64 {
+    pub fn far(&self, i: usize, u: f64, track: &Track) -> f64 {
         (track.place(self.at(i)) - track.place(u)).length_squared()
     }
 
     /// The nearest end of the stretch that holds a parameter.
-    fn nearest(&self, u: f64, track: &Track) -> usize {
+    pub fn nearest(&self, u: f64, track: &Track) -> usize {
         let after = self.after(u);
         if self.far(after, u, track) < self.far(after - 1, u, track) { after } else { after - 1 }
     }
@@ -136,82 +133,6 @@ impl Run<'_> {
         let before = (0..i).rev().find(|&j| self.is_apex(j)).unwrap_or(0);
         let after = (i + 1..last).find(|&j| self.is_apex(j)).unwrap_or(last);
         [self.at(before), self.at(after)]
-    }
-}
-
-/// What there is at a cut where biarcs may run over it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum At {
-    /// Nothing in particular.
-    None,
-    /// An arc over an apex, so many steps within the tolerance.
-    Apex(i32),
-    /// A node.
-    Node,
-}
-
-/// Where a run gets nodes, and how careful it is laid.
-struct Plan {
-    /// What there is where a stretch begins, and at the end of the run.
-    nodes: Vec<At>,
-    /// Number of the scheme of a stretch.
-    care: Vec<usize>,
-}
-
-impl Plan {
-    /// Arcs over all apices.
-    fn of(run: Run) -> Plan {
-        let n = run.stretches.len();
-        let mut nodes: Vec<At> =
-            (0..=n).map(|i| if run.is_apex(i) { At::Apex(0) } else { At::None }).collect();
-        for end in [0, n] {
-            nodes[end] = if nodes[end] == At::None { At::Node } else { nodes[end] };
-        }
-        Plan { nodes, care: vec![0; n] }
-    }
-
-    /// The nearest arc over an apex: one too wide is what bends those beside it the wrong way.
-    fn gives_way(nodes: &[At], u: f64, run: Run, track: &Track) -> Option<usize> {
-        let (after, n) = (run.after(u), run.stretches.len());
-        let before = (0..after).rev().find(|&i| run.is_apex(i));
-        let here = Some(after).filter(|&i| run.is_apex(i) && run.at(i) == u);
-        let behind = (after..=n).find(|&i| run.is_apex(i) && run.at(i) > u);
-        let behind = behind.or_else(|| (1..n).find(|&i| run.ring && run.is_apex(i)));
-        let apex_arcs = [before, here, behind].into_iter().flatten().filter(|&i| nodes[i] != At::Node);
-        apex_arcs.min_by(|&i, &j| run.far(i, u, track).total_cmp(&run.far(j, u, track)))
-    }
-
-    /// Takes more care at some places; answers whether it can.
-    fn improve(&mut self, (wrong, step): (&[f64], i32), run: Run, track: &Track) -> bool {
-        let mut better = false;
-        let n = run.stretches.len();
-        let (nodes, care) = (self.nodes.clone(), self.care.clone());
-        for &u in wrong {
-            let (first, nearest) = (Plan::gives_way(&nodes, u, run, track), run.nearest(u, track));
-            let first = first.or_else(|| Some(nearest).filter(|&i| nodes[i] != At::Node));
-            if let Some(i) = first {
-                self.nodes[i] = match nodes[i] {
-                    At::Apex(steps) if steps + step <= MAX_STEPS => At::Apex(steps + step),
-                    _ => At::Node,
-                };
-                if i == 0 || i == n {
-                    (self.nodes[0], self.nodes[n]) = (self.nodes[i], self.nodes[i]);
-                }
-                better = true;
-                continue;
-            }
-            let sides = match nearest {
-                i if i % n == 0 && run.ring => [n - 1, 0],
-                i => [i.saturating_sub(1), i.min(n - 1)],
-            };
-            for i in sides {
-                if care[i] + 1 < CAREFUL.len() {
-                    self.care[i] = if step > MAX_STEPS { CAREFUL.len() - 1 } else { care[i] + 1 };
-                    better = true;
-                }
-            }
-        }
-        better
     }
 }
 
