@@ -16,9 +16,11 @@ use super::intersect::meet;
 use crate::error::Error;
 use crate::geom::{ArcSpline, Bounds, Element, Point, Vertex};
 
-/// Pairs of elements near each other that are looked at: limit on effort. A drawing in which
-/// contours hardly meet has a few for each element.
+/// Pairs of elements near each other that are looked at, and pairs of boxes that meet: limits on effort. A
+/// drawing in which contours hardly meet has a few of the first for each element; the walls of a spiral of a
+/// million arcs have two hundred of the second.
 const PAIR_LIMIT: usize = 20_000_000;
+const BOX_LIMIT: usize = 400_000_000;
 
 /// Gives contours common vertices where they meet. Contours that vanish are left empty.
 pub(super) fn arrange(contours: &mut [Contour], grain: Grain) -> Result<(), Error> {
@@ -108,24 +110,47 @@ pub(super) fn filed(elements: &[Element], margin: f64) -> (Vec<Bounds>, Vec<u32>
 fn near_pairs(elements: &[Element], grain: Grain) -> Result<Vec<(u32, u32)>, Error> {
     let (boxes, owners) = filed(elements, grain.same);
     let tree = Index::new(&boxes);
-    let mut pairs = Vec::new();
+    let (mut pairs, mut boxes_met) = (Vec::new(), 0);
     for (piece, &i) in owners.iter().enumerate() {
         tree.meeting(&boxes[piece], |other| {
             let j = owners[other as usize];
             if i < j {
-                pairs.push((i, j));
+                boxes_met += 1;
+                let [a, b] = [i, j].map(|e| &elements[e as usize]);
+                // Sides of a strip are told in a few steps, where elements meet in many.
+                if !(lies_beside(a, b, grain.same) || lies_beside(b, a, grain.same)) {
+                    pairs.push((i, j));
+                }
             }
         });
-        if pairs.len() > PAIR_LIMIT {
-            let needed = (pairs.len() / (piece + 1) * owners.len()) as u64;
-            let what = "the search for crossings, in pairs of elements,";
-            return Err(Error::Effort { what, needed, limit: PAIR_LIMIT as u64 });
+        for (count, limit) in [(pairs.len(), PAIR_LIMIT), (boxes_met, BOX_LIMIT)] {
+            if count > limit {
+                let needed = (count / (piece + 1) * owners.len()) as u64;
+                let what = "the search for crossings, in pairs of elements,";
+                return Err(Error::Effort { what, needed, limit: limit as u64 });
+            }
         }
     }
     pairs.sort_unstable();
     pairs.dedup();
     Ok(pairs)
 }
+
+/// Whether all of an element lies on one side of the strip between another one and its chord, farther from it than
+/// round-off.
+fn lies_beside(element: &Element, strip: &Element, round_off: f64) -> bool {
+    let sagitta = |e: &Element, chord: f64| 0.5 * e.bulge * chord;
+    let chord = strip.chord();
+    let length = chord.length();
+    // To the left of the chord, times its length.
+    let [a, b] = [element.start, element.end].map(|p| chord.cross(p - strip.start));
+    let margin = length * (sagitta(element, element.chord().length()).abs() + BESIDE * round_off);
+    let depth = length * sagitta(strip, length);
+    a.min(b) - margin > (-depth).max(0.0) || a.max(b) + margin < (-depth).min(0.0)
+}
+
+/// Places of two elements that are the same may be off by so many round-offs, each on its side.
+const BESIDE: f64 = 4.0;
 
 /// Makes places of meetings that are the same to round-off equal, to a vertex where there is one.
 fn unite(elements: &[Element], meetings: &mut [Meeting], grain: Grain) {
@@ -195,6 +220,33 @@ mod tests {
 
     fn has(path: &ArcSpline, p: Point) -> bool {
         path.vertices.iter().any(|v| v.point == p)
+    }
+
+    #[test]
+    fn what_lies_beside_a_strip_does_not_meet_it_and_walls_of_a_spiral_do_lie_so() {
+        let mut state = 1u64;
+        let mut random = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1u64 << 53) as f64
+        };
+        let mut beside = 0;
+        for _ in 0..4000 {
+            let [a, b] = [(); 2].map(|()| {
+                let [p, q] = [(); 2].map(|()| point(random(), random()));
+                Element::arc(p, q, 2.0 * random() - 1.0)
+            });
+            if lies_beside(&a, &b, 1e-12) {
+                let nearest = (0..=50).map(|i| b.distance(a.point_at(f64::from(i) / 50.0)));
+                assert!(nearest.fold(f64::INFINITY, f64::min) > 0.0, "{a:?} {b:?}");
+                beside += 1;
+            }
+        }
+        assert!(beside > 100, "{beside}");
+        let wall = |r: f64| Element::arc(point(r, 0.0), point(0.8 * r, 0.6 * r), 0.16);
+        assert!(
+            lies_beside(&wall(100.0), &wall(130.0), 1e-9) || lies_beside(&wall(130.0), &wall(100.0), 1e-9)
+        );
+        assert!(!lies_beside(&wall(100.0), &wall(100.0), 1e-9));
     }
 
     #[test]

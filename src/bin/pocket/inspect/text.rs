@@ -203,7 +203,7 @@ impl Inspection {
         let smallest = tools.and_then(|t| t.into_iter().min_by(f64::total_cmp));
         let tool = match smallest {
             Some(d) => format!("a tool up to {} {} goes into all of them", short(d), self.unit()),
-            None => "too many elements to tell the largest tool".into(),
+            None => "the largest tool is not known, for too many elements or no axis".into(),
         };
         let count = counted(self.pockets.len(), "pocket", "pockets");
         let tool = if self.pockets.len() == 1 { tool.replace("all of them", "it") } else { tool };
