@@ -170,8 +170,8 @@ pub enum Defect {
         /// A vertex of the last one; the origin when there is none.
         at: Point,
     },
-    /// A curve with a coordinate or a bulge that is not finite or too large to calculate with.
-    #[error("a curve near {at} has a coordinate or a bulge that is not a usable number")]
+    /// A curve with a coordinate that is not finite or too large to calculate with.
+    #[error("a curve near {at} has a coordinate that is not a usable number")]
     Coordinate {
         /// Where it begins, as far as that is known.
         at: Point,

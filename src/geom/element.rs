@@ -31,10 +31,6 @@ pub struct Nearest {
 }
 
 impl Element {
-    /// Largest bulge of an arc. One of a larger bulge is a full circle as far as numbers can tell: the gap between
-    /// its ends is the diameter over the bulge, and a chord there is nearer to the circle than its round-off.
-    pub const LARGEST_BULGE: f64 = 67_108_864.0;
-
     /// The straight segment between two places.
     pub const fn segment(start: Point, end: Point) -> Element {
         Element { start, end, bulge: 0.0 }
