@@ -80,7 +80,9 @@ fn page(curves: &[Curve], tables: &[Vec<Row>]) -> String {
          `W / (192 eps)^(1/3)`, with `W` the integral of the cube root of the derivative of the curvature: \
          what any arcs need at least for small tolerances, even arcs that do not meet. Arcs that meet \
          with common tangents need 1.155 times that. *Away* is the same without the arcs over apices and those \
-         beside them; where only three lie between two arcs over apices, one is left. *S0* are the arcs by the scheme of Aichholzer et al., \
+         beside them; where only three lie between two arcs over apices, one is left, and then these ratios go in steps: \
+         the 36 equal parts of the lobes take four arcs each at 1e-4, as three would be a ratio of 1.03, less than \
+         arcs with common tangents can do, so that no curve of such arcs has fewer. *S0* are the arcs by the scheme of Aichholzer et al., \
          *Medial axis computation for planar free-form shapes*, 2009: osculating biarcs and halving. *Slope* is \
          that of the logarithms from one tolerance to another, -1/3 in theory. *Leaves* are the extrema of \
          the curvature of the arcs; the curve has as many at every tolerance.\n",
