@@ -263,8 +263,8 @@ pub(super) fn equal_reach(
         let (a, b) = (track.reach(sites, after, &probe).0, track.reach(sites, before, &probe).0);
         match (a.is_finite(), b.is_finite()) {
             (true, true) => (a - b) / (a + b),
-            (true, false) => f64::NEG_INFINITY,
-            (false, _) => f64::INFINITY,
+            (true, false) => -1.0,
+            (false, _) => 1.0,
         }
     };
     falling_root(from, 1.0, difference)
