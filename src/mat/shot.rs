@@ -28,7 +28,8 @@ const RUN: usize = 512;
 /// would look at every site.
 const NEIGHBORS: usize = 4;
 
-/// Disks so many times as large as the site at their joint may be held back by neighbors of that site.
+/// Disks so many times as large as the site at their joint may be held back by neighbors of that site; of smaller
+/// ones the hierarchy finds neighbors soon enough.
 const ROUND: f64 = 16.0;
 
 /// Larger than any disk in the unit frame.
@@ -101,7 +102,7 @@ fn shoot(sites: &[Site], bvh: &Bvh, joint: u32, blur: f64, hints: &Hints) -> Sho
         try_site(&mut best, newest.next);
     }
     let (mut back, mut ahead) = (joint, site.next);
-    let beside = site.start.point.distance(site.end.point).max(f64::MIN_POSITIVE);
+    let beside = site.start.point.distance(site.end.point);
     let neighbors = if osculating.is_some() || best.radius > ROUND * beside { NEIGHBORS } else { 0 };
     for _ in 0..neighbors {
         (back, ahead) = (sites[back as usize].prev, sites[ahead as usize].next);

@@ -12,6 +12,7 @@ use super::frame::Frame;
 use crate::boundary::TOUCHING_ULPS;
 use crate::geom::{ArcSpline, Element, Point, Vector};
 use std::collections::HashSet;
+use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// A drawn element in the unit frame.
 #[derive(Clone, Copy, Debug)]
@@ -79,12 +80,11 @@ fn place_key(p: Point) -> [u64; 2] {
     [(p.x + 0.0).to_bits(), (p.y + 0.0).to_bits()]
 }
 
-/// Bits that are spread alike over the word, whatever the places are.
-fn hash([x, y]: [u64; 2]) -> u64 {
-    /// Odd, and the golden part of the words.
-    const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
-    let mixed = (x.wrapping_mul(GOLDEN).rotate_left(29) ^ y).wrapping_mul(GOLDEN);
-    (mixed ^ mixed >> 32).wrapping_mul(GOLDEN)
+/// Bits that tell nearly all places apart; no order is taken from them.
+fn hash(key: [u64; 2]) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    key.hash(&mut hasher);
+    hasher.finish()
 }
 
 /// One end of an element at a touching point.
