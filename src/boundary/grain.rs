@@ -25,9 +25,13 @@ pub(super) struct Grain {
 
 impl Grain {
     /// The round-off of a drawing within a box.
+    ///
+    /// The axis is computed in units of a power of two above the diagonal. Round-off there counts as half of
+    /// that at least, or places would be two here and one there.
     pub fn of(bounds: &Bounds) -> Grain {
         let ulp = f64::EPSILON * bounds.magnitude();
-        Grain { same: ULPS * ulp, ulp: 0.5 * ulp }
+        let unit = bounds.diagonal().log2().ceil().exp2();
+        Grain { same: ULPS * ulp.max(0.5 * f64::EPSILON * unit), ulp: 0.5 * ulp }
     }
 
     /// The box of all places that cannot be told from `p`.

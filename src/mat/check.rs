@@ -93,10 +93,15 @@ impl Mat {
     fn middle(&self, edge: &GraphEdge) -> (UnitDisk, f64) {
         let pieces = edge.pieces.map(|p| &self.graph.pieces[p as usize].piece);
         let ends = edge.disks.map(|d| &self.graph.disks[d as usize]);
-        let disk = inner_disk(&self.sites, pieces, self.graph.error).unwrap_or(UnitDisk {
+        let between = UnitDisk {
             center: ends[0].center.midpoint(ends[1].center),
             radius: 0.5 * (ends[0].radius + ends[1].radius),
-        });
+        };
+        // Ends that are one for all that residuals tell have no disk between them that is not either of them.
+        let length = ends[0].center.distance(ends[1].center) + (ends[0].radius - ends[1].radius).abs();
+        let is_long = length > self.residual_error();
+        let inner = || inner_disk(&self.sites, pieces, self.graph.error);
+        let disk = is_long.then(inner).flatten().unwrap_or(between);
         let radii = ends.map(|d| d.radius);
         let beyond = (disk.radius - radii[0].max(radii[1])).max(radii[0].min(radii[1]) - disk.radius);
         (disk, beyond.max(0.0))

@@ -5,7 +5,7 @@ use super::conic::bezier;
 use super::frame::Frame;
 use super::graph::{DISK_ROUNDINGS, Graph};
 use super::kinds::Kinds;
-use super::lamination::Lamination;
+use super::lamination::{Lamination, UNION_ERROR};
 use super::piece::UnitDisk;
 use super::radii::Radii;
 use super::shot::shoot_all;
@@ -85,10 +85,6 @@ pub enum Mismatch {
 /// Directions in which holes are linked, one after the other until one has no ties. They are turned
 /// by irrational angles: drawings have their symmetries along other ones.
 const DIRECTIONS: [f64; 4] = [2.4, 5.2, 0.7, 3.9];
-
-/// Disks united by ties are equal but for round-off; the angle under which they see their contacts
-/// may cost half of the digits.
-const UNION_ERROR: f64 = 1.0 / 67_108_864.0;
 
 impl Pocket {
     /// The medial axis transform.
