@@ -1,7 +1,7 @@
 //! The certificate of an axis: residuals and topology, measured anew.
 
 use super::bvh::SearchDisk;
-use super::graph::{BoundaryPiece, Graph, GraphEdge};
+use super::graph::{BoundaryPiece, DISK_ROUNDINGS, Graph, GraphEdge};
 use super::piece::{Piece, UnitDisk};
 use super::site::{Foot, NONE};
 use super::splice::TANGENT_ROUNDINGS;
@@ -17,6 +17,27 @@ use rayon::prelude::*;
 /// have nearly equal normals (a corner of a few seconds of arc), or where a short arc is drawn with
 /// rounded ends, digits of their angle are lost. 2^17 leaves room for both.
 pub(super) const RESIDUAL_ROUNDINGS: f64 = 131_072.0;
+
+/// What is round-off of an axis, in the unit frame.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Doubt {
+    /// Of a disk: that of the numbers, and that of elements as short as round-off. Noise tilts an element of
+    /// length `l` by up to `c noise / l`, but what it owns is no wider than `l`; of the two the smaller counts,
+    /// which is at most the root of `c noise`.
+    pub disks: f64,
+    /// Of a footpoint along the boundary: disks that differ by round-off are one, and along a tie their feet lie
+    /// apart by the root of twice that.
+    pub feet: f64,
+}
+
+impl Doubt {
+    /// That of an axis whose coordinates are off by `noise`, where angles up to `blur` at a joint were taken for
+    /// round-off.
+    pub fn of(noise: f64, blur: f64) -> Doubt {
+        let disks = RESIDUAL_ROUNDINGS * noise + blur.min((2.0 * TANGENT_ROUNDINGS * noise).sqrt());
+        Doubt { disks, feet: (2.0 * DISK_ROUNDINGS * noise).sqrt() + disks }
+    }
+}
 
 /// Disks one after the other that are looked at together.
 const NEAR: usize = 256;
@@ -107,18 +128,14 @@ impl Mat {
         (disk, beyond.max(0.0))
     }
 
-    /// Largest distance of a center from the normal at a footpoint that is round-off: disks that
-    /// differ by `error` are one, and along a tie their feet lie apart by the root of twice that.
+    /// Largest distance of a center from the normal at a footpoint that is round-off.
     fn foot_error(&self) -> f64 {
-        (2.0 * self.graph.error).sqrt() + self.residual_error()
+        Doubt::of(self.frame.noise, self.blur).feet
     }
 
-    /// Largest residual that is round-off, in the unit frame: that of the numbers, and that of elements
-    /// as short as round-off. Noise tilts an element of length `l` by up to `c noise / l`, but what it
-    /// owns is no wider than `l`; of the two the smaller counts, which is at most the root of `c noise`.
+    /// Largest residual that is round-off, in the unit frame.
     pub(super) fn residual_error(&self) -> f64 {
-        let noise = self.frame.noise;
-        RESIDUAL_ROUNDINGS * noise + self.blur.min((2.0 * TANGENT_ROUNDINGS * noise).sqrt())
+        Doubt::of(self.frame.noise, self.blur).disks
     }
 
     /// How far the boundary reaches into disks at most, as far as the wish cares, and their centers. In a

@@ -4,7 +4,6 @@ use super::shot::Shot;
 use super::site::{Foot, Joint, NONE, Site};
 use super::touch::{Contact, foot_of};
 use crate::geom::Point;
-use std::collections::HashMap;
 
 /// Where a joint disk touches a site.
 #[derive(Clone, Copy, Debug)]
@@ -85,32 +84,6 @@ fn part_of_cone(sites: &[Site], mut id: u32, center: Point) -> u32 {
         id = sites[id as usize].next;
     }
     id
-}
-
-/// Moves contacts of disks that osculate a whole arc out of the way of all others on it, to that end of them where
-/// their joint is. Such a disk touches the arc everywhere, and which place stands for it is a choice; where
-/// round-off hides that another disk of the arc is smaller, a chord to the far end would cross the other's.
-pub(super) fn set_apart(contacts: &mut [ContactItem], shots: &[Shot]) {
-    let is_whole = |c: &ContactItem| shots[c.joint as usize].contact == Contact::Whole;
-    let mut others: HashMap<u32, [ContactItem; 2]> = HashMap::new();
-    for c in contacts.iter().filter(|c| !is_whole(c)) {
-        let [first, last] = others.entry(c.site).or_insert([*c; 2]);
-        if c.position < first.position {
-            *first = *c;
-        }
-        if c.position > last.position {
-            *last = *c;
-        }
-    }
-    for c in contacts.iter_mut().filter(|c| is_whole(c)) {
-        if let Some([first, last]) = others.get(&c.site) {
-            let from_start = c.position > 0.0;
-            (c.foot, c.position) = match from_start {
-                true => (first.foot, first.position.next_down()),
-                false => (last.foot, last.position.next_up()),
-            };
-        }
-    }
 }
 
 /// All items in boundary order: the contacts of each site by position, then the joint at its end.

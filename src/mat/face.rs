@@ -15,7 +15,8 @@ use super::graph::DISK_ROUNDINGS;
 use super::patch::Patch;
 use super::piece::{Piece, UnitDisk};
 use super::root::falling_root;
-use super::site::{Foot, Site};
+use super::shot::RADIUS_ERROR;
+use super::site::{Foot, Joint, NONE, Site};
 use super::touch::{Contact, Probe, foot_of};
 use super::track::Track;
 use crate::geom::{Bounds, Vector};
@@ -134,11 +135,17 @@ impl<'a> Face<'a> {
         loop {
             let t = equal_reach(self.sites, &track, second, piece(third), from);
             let probe = track.at(t);
-            let reach = common_reach(self.sites, &track, t, [second, piece(third)]);
+            let mut reach = common_reach(self.sites, &track, t, [second, piece(third)]);
             // The order of partners makes the index fall, so this ends.
             if let Some(nearer) = self.nearest_between(sub, patch, &track, &probe, reach, third) {
                 (third, from) = (nearer, t);
                 continue;
+            }
+            if reach.is_infinite() {
+                reach = [second, piece(third)]
+                    .map(|p| track.reach(self.sites, p, &probe).0)
+                    .into_iter()
+                    .fold(reach, f64::min);
             }
             let branch = self.branch(&track, &probe, reach, third, patch, sub);
             if spread(branch.feet) >= WELL_SPREAD {
@@ -260,9 +267,21 @@ pub(super) fn equal_reach(
 ) -> f64 {
     let difference = |t: f64| {
         let probe = track.at(t);
-        let (a, b) = (track.reach(sites, after, &probe).0, track.reach(sites, before, &probe).0);
+        let [(a, at_a), (b, at_b)] = [after, before].map(|p| track.reach(sites, p, &probe));
         match (a.is_finite(), b.is_finite()) {
-            (true, true) => (a - b) / (a + b),
+            (true, true) => {
+                let difference = (a - b) / (a + b);
+                if difference.abs() > RADIUS_ERROR {
+                    return difference;
+                }
+                // Round-off hides for the root of it which of two sites holds a disk back beside their corner:
+                // the one that is touched between its ends, as the corner itself lies outside of all disks.
+                match [is_corner(sites, after, at_a, before), is_corner(sites, before, at_b, after)] {
+                    [true, false] => RADIUS_ERROR,
+                    [false, true] => -RADIUS_ERROR,
+                    _ => difference,
+                }
+            }
             (true, false) => -1.0,
             (false, _) => 1.0,
         }
@@ -270,24 +289,45 @@ pub(super) fn equal_reach(
     falling_root(from, 1.0, difference)
 }
 
+/// Whether a contact with a piece is a corner of the pocket where its site meets that of another piece.
+fn is_corner(sites: &[Site], piece: &Piece, contact: Contact, other: &Piece) -> bool {
+    let vertex = match contact {
+        Contact::Start => piece.vertices[0],
+        Contact::End => piece.vertices[1],
+        Contact::Inside | Contact::Whole => return false,
+    };
+    vertex != NONE
+        && sites[vertex as usize].joint == Joint::Convex
+        && sites[other.site as usize].vertices.contains(&vertex)
+}
+
 /// Radius of the disk to both of two pieces at a place where they are equal. Next to a flat corner the reach
 /// to the other side goes from nothing to infinity within a few roundings of the place: then that to the
-/// piece that does not is the one.
+/// piece that does not is the one, and may be infinite.
 pub(super) fn common_reach(sites: &[Site], track: &Track<'_>, t: f64, pieces: [&Piece; 2]) -> f64 {
     let reach = |t: f64| {
         let probe = track.at(t);
         pieces.map(|p| track.reach(sites, p, &probe).0)
     };
     let [a, b] = reach(t);
-    if (a - b).abs() <= TIE_ERROR || !(a.is_finite() && b.is_finite()) {
+    if (a - b).abs() <= TIE_ERROR || !(a.is_finite() || b.is_finite()) {
         return a.min(b);
     }
-    let (before, after) = (reach(t - f64::EPSILON), reach(t + f64::EPSILON));
-    let [steep_a, steep_b] = [0, 1].map(|i| (after[i] - before[i]).abs());
-    match steep_a.partial_cmp(&steep_b) {
-        Some(Ordering::Less) => a,
-        Some(Ordering::Greater) => b,
-        // Infinite on both sides, which has no difference, or equal.
+    let [before, after] = [t - f64::EPSILON, t + f64::EPSILON].map(reach);
+    // How much the reach to a piece changes within roundings of the place; what stays infinite does not.
+    let change = |i: usize| {
+        let all = [before[i], [a, b][i], after[i]];
+        if all.iter().all(|r| r.is_infinite()) {
+            return 0.0;
+        }
+        all.into_iter().fold(0.0, f64::max) - all.into_iter().fold(f64::INFINITY, f64::min)
+    };
+    let [of_a, of_b] = [change(0), change(1)];
+    // Where neither gets past the other, the parameter is at an end, and the smaller holds the disk back.
+    let is_crossing = of_a.max(of_b) >= (a - b).abs();
+    match of_a.total_cmp(&of_b) {
+        Ordering::Less if is_crossing => a,
+        Ordering::Greater if is_crossing => b,
         _ => a.min(b),
     }
 }

@@ -15,7 +15,9 @@
 //! Source: the division by maximal disks of Aichholzer et al., *Medial axis computation for planar
 //! free-form shapes* (CAD 41, 2009), section 3, with all disks chosen up front.
 
-use super::contacts::{ContactItem, Order, contacts, set_apart};
+use super::apart::set_apart;
+use super::check::Doubt;
+use super::contacts::{ContactItem, Order, contacts};
 use super::piece::{Piece, UnitDisk, cut_vertex};
 use super::shot::Shot;
 use super::site::NONE;
@@ -25,9 +27,8 @@ use super::union::Sets;
 use crate::geom::Point;
 use std::collections::HashMap;
 
-/// Disks united by ties are equal but for round-off; the angle under which they see their contacts
-/// may cost half of the digits.
-pub(super) const UNION_ERROR: f64 = 1.0 / 67_108_864.0;
+/// Times that crossing chords are set apart, at most: doing so may make others cross.
+const ROUNDS: usize = 8;
 
 /// A stop on the walk around the cut pocket: a joint or a contact, and the piece that ends there.
 #[derive(Clone, Copy, Debug)]
@@ -54,25 +55,37 @@ pub(super) struct Lamination {
 }
 
 impl Lamination {
-    /// The map of the shots, that of least unions; `None` when the links do not reach every ring.
-    pub fn of(all: &Sites, shots: &[Shot]) -> Option<Lamination> {
-        let map = Lamination::with(all, shots, contacts(&all.sites, shots))?;
-        if map.widest_union.0 <= UNION_ERROR {
-            return Some(map);
+    /// The map of the shots; `None` when the links do not reach every ring.
+    pub fn of(all: &Sites, shots: &[Shot], doubt: Doubt) -> Option<Lamination> {
+        let contacts = contacts(&all.sites, shots);
+        let (mut map, mut crossings) = Lamination::with(all, shots, contacts, doubt)?;
+        let mut contacts = (!crossings.is_empty()).then(|| map.contacts.clone()).unwrap_or_default();
+        for _ in 0..ROUNDS {
+            if !set_apart((&all.sites, shots), &mut contacts, &crossings, doubt.feet) {
+                break;
+            }
+            let Some((other, rest)) = Lamination::with(all, shots, contacts.clone(), doubt) else { break };
+            crossings = rest;
+            if other.widest_union.0 < map.widest_union.0 {
+                map = other;
+            }
         }
-        let mut apart = contacts(&all.sites, shots);
-        set_apart(&mut apart, shots);
-        let other = Lamination::with(all, shots, apart);
-        other.filter(|other| other.widest_union.0 < map.widest_union.0).or(Some(map))
+        Some(map)
     }
 
-    fn with(all: &Sites, shots: &[Shot], contacts: Vec<ContactItem>) -> Option<Lamination> {
+    /// The map of some contacts, and the joints of chords that cross though their disks differ.
+    fn with(
+        all: &Sites,
+        shots: &[Shot],
+        contacts: Vec<ContactItem>,
+        doubt: Doubt,
+    ) -> Option<(Lamination, Vec<[u32; 2]>)> {
         let order = Order::of(&all.sites, &contacts);
         let (visits, rows) = walk(all, &order, &contacts)?;
         let disks = Vec::new();
         let mut map = Lamination { visits, rows, disks, contacts, widest_union: (0.0, Point::default()) };
-        map.close(all, shots)?;
-        Some(map)
+        let crossings = map.close(all, shots, doubt.disks)?;
+        Some((map, crossings))
     }
 }
 
@@ -148,8 +161,9 @@ impl Blocks {
 
 impl Lamination {
     /// Unites crossing chords, and makes disks and partners of what results; `None` when a chord leads
-    /// to another row, which only a missing link can do.
-    fn close(&mut self, all: &Sites, shots: &[Shot]) -> Option<()> {
+    /// to another row, which only a missing link can do. Answers the joints of united chords whose disks differ
+    /// by more than `doubt`.
+    fn close(&mut self, all: &Sites, shots: &[Shot], doubt: f64) -> Option<Vec<[u32; 2]>> {
         let n = all.sites.len() as u32;
         let disk_at = |joint: u32| {
             let (end, radius) = (&all.sites[joint as usize].end, shots[joint as usize].radius);
@@ -165,6 +179,7 @@ impl Lamination {
         for (v, &joint) in self.visits.iter().zip(&joints) {
             blocks.ahead[joint as usize] += u32::from(v.partner == NONE);
         }
+        let mut crossings = Vec::new();
         for row in self.rows.clone() {
             let mut stack: Vec<u32> = Vec::new();
             for i in row.clone() {
@@ -181,10 +196,10 @@ impl Lamination {
                         break;
                     }
                     stack.pop();
-                    self.note_union(
-                        disk_at(blocks.joint[top as usize]),
-                        disk_at(blocks.joint[block as usize]),
-                    );
+                    let pair = [top, block].map(|b| blocks.joint[b as usize]);
+                    if self.note_union(pair.map(disk_at)) > doubt {
+                        crossings.push([top, joints[i as usize]]);
+                    }
                     unite(&mut blocks, top, block, shots);
                     block = blocks.root(block);
                 }
@@ -198,14 +213,16 @@ impl Lamination {
             }
         }
         self.number_disks(all, &joints, &mut blocks, disk_at);
-        Some(())
+        Some(crossings)
     }
 
-    fn note_union(&mut self, a: UnitDisk, b: UnitDisk) {
+    /// Notes how far apart two disks are that become one.
+    fn note_union(&mut self, [a, b]: [UnitDisk; 2]) -> f64 {
         let apart = a.center.distance(b.center) + (a.radius - b.radius).abs();
         if apart > self.widest_union.0 {
             self.widest_union = (apart, a.center);
         }
+        apart
     }
 
     /// Gives every block its disk and links its visits to rings.

@@ -17,6 +17,7 @@
 //!
 //! [`Pocket`]: crate::Pocket
 
+mod apart;
 mod bvh;
 mod check;
 mod conic;

@@ -115,7 +115,7 @@ fn shoot(sites: &[Site], bvh: &Bvh, joint: u32, blur: f64, hints: &Hints) -> Sho
 }
 
 /// Round-off of a radius, relative to it: eight roundings on either side of a comparison.
-const RADIUS_ERROR: f64 = 16.0 * f64::EPSILON;
+pub(super) const RADIUS_ERROR: f64 = 16.0 * f64::EPSILON;
 
 /// Whether a shot holds the disk back more than another. Next to the end of a site, the radius to the
 /// contact and to the end differ by the square of their distance, which round-off hides long before

@@ -59,8 +59,8 @@ impl Sites {
             let hole = is_hole(&row, pocket);
             let mut parts: Vec<Part> = Vec::with_capacity(row.len() + row.len() / 4);
             row.iter().for_each(|drawn| add_parts(drawn, whole, &mut parts));
-            lend_directions(&mut parts, frame.noise);
-            all.blur = all.blur.max(share_normals(&mut parts, frame.noise));
+            let lent = lend_directions(&mut parts, frame.noise);
+            all.blur = all.blur.max(lent).max(share_normals(&mut parts, frame.noise));
             if hole {
                 split_at_extreme(&mut parts, direction);
             }
@@ -276,12 +276,14 @@ fn split_at_extreme(parts: &mut Vec<Part>, direction: Vector) {
 ///
 /// Longer ones keep their own direction, or levels beside them would be off by its change; so do those
 /// between segments, where a joint is the corner that is drawn, however short they are.
-fn lend_directions(parts: &mut [Part], noise: f64) {
+/// Answers the largest angle of a turn.
+fn lend_directions(parts: &mut [Part], noise: f64) -> f64 {
     let n = parts.len();
     let sliver = sliver(noise);
     if parts.iter().all(|p| p.chord >= sliver) {
-        return;
+        return 0.0;
     }
+    let mut largest = 0.0f64;
     let beside = |i: usize, forward: bool| if forward { (i + 1) % n } else { (i + n - 1) % n };
     let tilt = |parts: &[Part], from: usize, forward: bool| {
         let to = beside(from, forward);
@@ -308,9 +310,11 @@ fn lend_directions(parts: &mut [Part], noise: f64) {
             let bend = parts[from].curvature.abs() + parts[beside(to, forward)].curvature.abs();
             parts[to].unseen = bend * parts[to].chord;
             parts[to].chord = parts[from].chord;
+            largest = largest.max(sine.abs());
             from = to;
         }
     }
+    largest
 }
 
 /// Gives both parts at every smooth joint one normal: that of the longer element, whose direction

@@ -1,11 +1,12 @@
 //! The transform as a whole.
 
 use super::bvh::Bvh;
+use super::check::Doubt;
 use super::conic::bezier;
 use super::frame::Frame;
 use super::graph::{DISK_ROUNDINGS, Graph};
 use super::kinds::Kinds;
-use super::lamination::{Lamination, UNION_ERROR};
+use super::lamination::Lamination;
 use super::piece::UnitDisk;
 use super::radii::Radii;
 use super::shot::shoot_all;
@@ -86,6 +87,10 @@ pub enum Mismatch {
 /// by irrational angles: drawings have their symmetries along other ones.
 const DIRECTIONS: [f64; 4] = [2.4, 5.2, 0.7, 3.9];
 
+/// Disks united by ties are equal but for round-off; the angle under which they see their contacts
+/// may cost half of the digits.
+const UNION_ERROR: f64 = 1.0 / 67_108_864.0;
+
 impl Pocket {
     /// The medial axis transform.
     ///
@@ -130,7 +135,7 @@ fn laminate(pocket: &Pocket, frame: &Frame, direction: Vector) -> Result<Laminat
     if let Some(i) = lost {
         return Err(all.sites[i].end.point);
     }
-    let map = Lamination::of(&all, &shots)
+    let map = Lamination::of(&all, &shots, Doubt::of(frame.noise, all.blur))
         .ok_or_else(|| all.sites.first().map_or(Point::default(), |s| s.end.point))?;
     let union = map.widest_union;
     Ok((all, bvh, map, union))

@@ -63,7 +63,7 @@ fn built(pocket: &Pocket, meddle: impl FnOnce(&mut Sites, &mut [Shot])) -> Optio
     let bvh = Bvh::sorted(&all.sites.iter().map(Site::bounds).collect::<Vec<_>>());
     let mut shots = shoot_all(&all.sites, &bvh, all.blur);
     meddle(&mut all, &mut shots);
-    let map = Lamination::of(&all, &shots)?;
+    let map = Lamination::of(&all, &shots, Doubt::of(frame.noise, all.blur))?;
     Some(Mat::build(frame, all, bvh, map))
 }
 
