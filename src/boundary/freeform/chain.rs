@@ -75,6 +75,8 @@ pub(super) struct Links<'a, 'b> {
     pub ends: [End; 2],
     /// Whether chains run against the curve.
     pub backwards: bool,
+    /// Whether the curvature falls along chains.
+    falls: bool,
     /// The number of arcs.
     pub arcs: usize,
     /// The unit of distances from the curve.
@@ -105,7 +107,8 @@ impl<'a, 'b> Links<'a, 'b> {
         };
         let ends = if backwards { [end(1), end(0)] } else { [end(0), end(1)] };
         let length = (b.place - a.place).length() / arcs as f64;
-        Links { track, density, ends, backwards, arcs, tolerance, length }
+        let falls = ends[1].joined.curvature < ends[0].joined.curvature;
+        Links { track, density, ends, backwards, falls, arcs, tolerance, length }
     }
 
     /// The number of parameters: those of knots, the slides, and the joint of the last two arcs.
@@ -157,13 +160,13 @@ impl<'a, 'b> Links<'a, 'b> {
     }
 
     /// The place at a share of the density, moved from its own share by a part of one, beside the curve by
-    /// some tolerances.
+    /// some tolerances: to the side that the circle at the far end is on, so that mirrored curves have mirrored knots.
     fn knot(&self, i: usize, along: f64, aside: f64) -> Vector {
         let part = (i as f64 + along) / self.arcs as f64;
         let share = self.density.total() * if self.backwards { 1.0 - part } else { part };
         let share = share.clamp(0.0, self.density.total());
         let node = self.track.node(self.density.beyond(share, &mut Cursor::default()));
-        let aside = if self.backwards { -aside } else { aside };
+        let aside = if self.backwards != self.falls { -aside } else { aside };
         self.track.grid.snap(node.place + node.tangent.left() * (aside * self.tolerance))
     }
 

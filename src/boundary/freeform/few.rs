@@ -35,8 +35,8 @@ const GOAL: f64 = 0.9375;
 const HOPELESS: [f64; MAX_STEPS] = [64.0, 6.0, 2.5, 1.625, 1.375, 1.25, 1.125, 1.0625];
 
 /// Difference of a parameter that tells a derivative, in the unit of that parameter: a part of an arc or
-/// the tolerance.
-const DIFFERENCE: f64 = 1.0 / 1024.0;
+/// the tolerance. Round-off of errors becomes larger by its inverse.
+const DIFFERENCE: f64 = 1.0 / 16.0;
 
 /// A parameter is corrected by so many of its units at most.
 const STRIDE: f64 = 0.5;
@@ -247,7 +247,7 @@ mod tests {
         let track = Track::new(&pieces);
         let ends = Ends::of([track.cut_node(0.0, Side::After), track.cut_node(1.0, Side::Before)]);
         let mut density = Density::default();
-        density.fill(&track, &ends.nodes, |bend| bend.speed * bend.slope.abs().cbrt());
+        density.fill(&track, (&ends.nodes, 1e-6), |bend| bend.speed * bend.slope.abs().cbrt());
         let mut found = Vec::new();
         for arcs in 1..=MOST_ARCS {
             let mut cells = Vec::new();

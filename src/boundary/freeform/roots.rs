@@ -120,6 +120,7 @@ fn bracketed(p: &Poly, first: usize, last: usize) -> f64 {
     let (mut low, mut high) = (0.0, 1.0);
     let (mut at_low, mut at_high) = (p.values()[first], p.values()[last]);
     let mut side = 0;
+    let mut before = None;
     for step in 0..MAX_STEPS {
         let secant = low + (high - low) * at_low / (at_low - at_high);
         let t = if step % 8 == 7 { 0.5 * (low + high) } else { secant };
@@ -128,8 +129,11 @@ fn bracketed(p: &Poly, first: usize, last: usize) -> f64 {
         }
         let (value, error) = p.at(t);
         if value.abs() <= error {
-            return t;
+            // Bounds of round-off are far above round-off itself: one more step of the secant is for the better.
+            let next = before.map_or(t, |(u, v): (f64, f64)| t - value * (t - u) / (value - v));
+            return if next > low && next < high { next } else { t };
         }
+        before = Some((t, value));
         // Illinois: an end that stays counts half.
         if (value > 0.0) == (at_low > 0.0) {
             (low, at_low) = (t, value);

@@ -24,7 +24,10 @@ const SLACKS: [f64; 3] = [1.0 / 256.0, 1.0 / 64.0, 1.0 / 16.0];
 /// Steps of Newton's method for a stationary place at most, and the length of the last one: the value there
 /// is as good as the fourth power of that, as the steps square and it is stationary.
 const STEPS: usize = 8;
-const LAST_STEP: f64 = 1e-3;
+const LAST_STEP: f64 = 1e-4;
+
+/// Parts in which stationary places are looked for where all of them count.
+const PARTS: i32 = 8;
 
 /// A polynomial of degree 6.
 type Sextic = [f64; 2 * DEGREE + 1];
@@ -71,9 +74,9 @@ pub(super) fn sides(frame: &Frame, piece: &Piece, (from, to): (f64, f64)) -> Opt
     }
     let local = Local::of(frame, piece, 0.5 * (from + to), 0.5 * (to - from));
     let (n, d) = local.power(frame);
-    let found = values(&n, &d, local.rational);
-    let most = |sign: f64| frame.distance(found.iter().fold(0.0, |m: f64, v| m.max(sign * v)));
-    Some([most(1.0), most(-1.0)])
+    let (mut least, mut most) = (0.0f64, 0.0f64);
+    extrema(&n, &d, |value| (least, most) = (least.min(value), most.max(value)));
+    Some([frame.distance(most), frame.distance(-least)])
 }
 
 impl Local {
@@ -191,6 +194,37 @@ fn values(n: &Sextic, d: &Sextic, rational: bool) -> [f64; 4] {
         ratio(z)
     });
     [ratio(-1.0), ratio(1.0), inner[0], inner[1]]
+}
+
+/// Tells the values of `n / d` at the ends and at stationary places between: an arc over an apex errs like a quartic,
+/// and may do so by next to nothing on one side.
+fn extrema(n: &Sextic, d: &Sextic, mut tell: impl FnMut(f64)) {
+    // The ratio, and a positive multiple of its derivative and of the next one where that vanishes.
+    let ratio = |z: f64| {
+        let ([v, v1, v2], [w, w1, w2]) = (at(n, z), at(d, z));
+        (v / w, v1 * w - v * w1, v2 * w - v * w2)
+    };
+    let (mut low, mut before) = (-1.0, ratio(-1.0));
+    tell(before.0);
+    for i in 1..=PARTS {
+        let high = 2.0 * f64::from(i) / f64::from(PARTS) - 1.0;
+        let next = ratio(high);
+        if before.1 * next.1 < 0.0 {
+            let mut z = low + (high - low) * before.1 / (before.1 - next.1);
+            for _ in 0..STEPS {
+                let (_, slope, change) = ratio(z);
+                let step = slope / change;
+                let inside = z - step > low && z - step < high;
+                z = if inside { z - step } else { 0.5 * (low + high) };
+                if inside && step.abs() <= LAST_STEP {
+                    break;
+                }
+            }
+            tell(ratio(z).0);
+        }
+        (low, before) = (high, next);
+    }
+    tell(before.0);
 }
 
 /// Whether `bound d` is above the absolute value of `n` for certain.
