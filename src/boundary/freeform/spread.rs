@@ -188,7 +188,7 @@ impl Spread {
         let chord = (ends.nodes[1].place - ends.nodes[0].place).length();
         let least = LEAST / if chord > 0.0 { chord } else { track.extent() };
         if !std::mem::take(&mut self.is_filled) {
-            self.density.fill(track, (&ends.nodes, goal.tolerance), |bend| goal.density(least, bend));
+            self.density.fill(track, (&ends.nodes, goal.tolerance), |jet| goal.density(least, jet));
         }
         let total = self.density.total();
         self.marks.clear();
