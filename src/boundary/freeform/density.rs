@@ -114,11 +114,11 @@ impl Density {
     ) {
         let (middle, half) = (0.5 * (a + b), 0.5 * (b - a));
         let last_one = halvings >= MAX_HALVINGS || self.leaves.len() >= MAX_LEAVES;
-        let mut low = [0.0; LOW + 1];
-        (low[0], low[LOW]) = (first, last);
-        for i in 1..LOW {
-            low[i] = at(middle + half * LOW_RULE.places[i]);
-        }
+        let low: [f64; LOW + 1] = std::array::from_fn(|i| match i {
+            0 => first,
+            LOW => last,
+            _ => at(middle + half * LOW_RULE.places[i]),
+        });
         let error = half * LOW_RULE.rest(&low);
         if error <= precision {
             return self.push(whole + middle, half, LOW_RULE.powers(&low));
@@ -133,10 +133,10 @@ impl Density {
                 (halvings, precision),
             );
         }
-        let mut high = [0.0; HIGH + 1];
-        for i in 0..=HIGH {
-            high[i] = if i % 2 == 0 { low[i / 2] } else { at(middle + half * HIGH_RULE.places[i]) };
-        }
+        let high: [f64; HIGH + 1] = std::array::from_fn(|i| match i % 2 {
+            0 => low[i / 2],
+            _ => at(middle + half * HIGH_RULE.places[i]),
+        });
         if last_one || half * HIGH_RULE.rest(&high) <= precision {
             return self.push(whole + middle, half, HIGH_RULE.powers(&high));
         }

@@ -139,7 +139,7 @@ impl<'a, 'b> Search<'a, 'b> {
             if worst <= GOAL {
                 return Some(chain);
             }
-            let in_vain = moved <= STRAIGHT && fit.least() > 1.0;
+            let in_vain = moved <= STRAIGHT && fit.least() > GOAL;
             if worst > hopeless || worst.is_nan() || fit.slopes.is_empty() || in_vain {
                 return None;
             }
