@@ -186,7 +186,8 @@ struct Rule<const N: usize> {
     places: [f64; N],
     /// The last coefficients by Chebyshev polynomials, for each value.
     last: [[f64; N]; 2],
-    /// Powers of the integral for each sum of two values on both sides, or difference of them.
+    /// For each pair of values on both sides, shares of powers of the integral: of odd powers in their sum, of even
+    /// ones in their difference.
     powers: [[f64; N]; N],
 }
 
@@ -206,7 +207,7 @@ impl<const N: usize> Rule<N> {
         let mut powers = [[0.0; N]; N];
         for k in 0..N {
             for (i, c) in polynomial.iter().enumerate() {
-                (0..N).for_each(|j| powers[i][j] += c * share(k, j) / (i + 1) as f64);
+                (0..N).for_each(|j| powers[j][i] += c * share(k, j) / (i + 1) as f64);
             }
             // T(k + 1) = 2 z T(k) - T(k - 1), but T1 = z T0.
             let factor = if k == 0 { 1.0 } else { 2.0 };
@@ -223,22 +224,25 @@ impl<const N: usize> Rule<N> {
 
     /// The sum of the last coefficients of values, for the integral: what is left out is less than that.
     fn rest(&self, values: &[f64; N]) -> f64 {
-        let with = |last: &[f64; N]| last.iter().zip(values).map(|(a, b)| a * b).sum::<f64>().abs();
-        (with(&self.last[0]) + with(&self.last[1])) / N as f64
+        let mut last = [0.0; 2];
+        for (j, value) in values.iter().enumerate() {
+            (0..2).for_each(|i| last[i] += self.last[i][j] * value);
+        }
+        (last[0].abs() + last[1].abs()) / N as f64
     }
 
     /// The integral by powers.
     fn powers(&self, values: &[f64; N]) -> [f64; N] {
-        let n = N - 1;
-        let (mut sums, mut differences) = ([0.0; N], [0.0; N]);
-        for j in 0..n / 2 {
-            (sums[j], differences[j]) = (values[j] + values[n - j], values[j] - values[n - j]);
+        let (n, mut powers) = (N - 1, [0.0; N]);
+        for (j, shares) in self.powers[..=n / 2].iter().enumerate() {
+            let (a, b) = (values[j], if 2 * j == n { 0.0 } else { values[n - j] });
+            let by = [a + b, a - b];
+            for (to, share) in powers.chunks_exact_mut(2).zip(shares.chunks_exact(2)) {
+                (0..2).for_each(|i| to[i] += share[i] * by[i]);
+            }
+            powers[n] += shares[n] * by[0];
         }
-        sums[n / 2] = values[n / 2];
-        std::array::from_fn(|i| {
-            let by = if i % 2 == 0 { &sums } else { &differences };
-            self.powers[i][..=n / 2].iter().zip(by).map(|(a, b)| a * b).sum()
-        })
+        powers
     }
 }
 
