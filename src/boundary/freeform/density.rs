@@ -68,7 +68,8 @@ struct Leaf {
 pub(super) struct Density {
     leaves: Vec<Leaf>,
     total: f64,
-    end: f64,
+    /// Parameters between which it is known.
+    range: [f64; 2],
     precision: f64,
 }
 
@@ -77,17 +78,35 @@ pub(super) struct Density {
 pub(super) struct Cursor(usize);
 
 impl Density {
-    /// Takes the density between two nodes, as precise as round-off of places is in tolerances.
+    /// Takes the density between two nodes, as precise as round-off of places is in tolerances. What it already is
+    /// between nodes that are nearer to each other stays.
     pub fn fill(
         &mut self,
         track: &Track,
         (ends, tolerance): (&[Node; 2], f64),
         density: impl Fn(&Jet) -> f64,
     ) {
-        let (from, to) = (ends[0].u, ends[1].u);
-        self.leaves.clear();
-        (self.total, self.end) = (0.0, to);
+        let [from, to] = [ends[0].u, ends[1].u];
+        let [first, last] = self.range;
+        let known = std::mem::take(&mut self.total);
+        let mut inner = std::mem::take(&mut self.leaves);
+        self.range = [from, to];
         self.precision = (SHARE * track.noise() / tolerance).clamp(FINEST, COARSEST);
+        if inner.is_empty() || first < from || last > to {
+            inner.clear();
+            self.leaves = inner;
+            return self.append(track, [from, to], &density);
+        }
+        self.leaves.reserve(2 * inner.len());
+        self.append(track, [from, first], &density);
+        inner.iter_mut().for_each(|leaf| leaf.before += self.total);
+        self.leaves.append(&mut inner);
+        self.total += known;
+        self.append(track, [last, to], &density);
+    }
+
+    /// Appends leaves between two parameters.
+    fn append(&mut self, track: &Track, [from, to]: [f64; 2], density: &impl Fn(&Jet) -> f64) {
         let mut whole = from.floor();
         while whole < to {
             let (a, b) = ((from - whole).max(0.0), (to - whole).min(1.0));
@@ -176,7 +195,9 @@ impl Density {
             cursor.0 += 1;
         }
         let close = CLOSE_ENOUGH * self.precision.sqrt();
-        self.leaves.get(cursor.0).map_or(self.end, |leaf| leaf.middle + leaf.half * leaf.solve(share, close))
+        self.leaves
+            .get(cursor.0)
+            .map_or(self.range[1], |leaf| leaf.middle + leaf.half * leaf.solve(share, close))
     }
 }
 

@@ -109,9 +109,15 @@ impl Spread {
         self.density = density.unwrap_or_default();
     }
 
-    /// Whether tangents at ends suit the biarcs beside them, if those ends may yield.
-    pub fn check(&mut self, track: &Track, ends: &Ends, goal: &Goal) -> Result<(), Lost> {
-        self.is_filled = false;
+    /// Whether tangents at ends suit the biarcs beside them, if those ends may yield. The density may be known between
+    /// ends nearer to each other.
+    pub fn check(
+        &mut self,
+        track: &Track,
+        ends: &Ends,
+        (goal, inner): (&Goal, Option<Density>),
+    ) -> Result<(), Lost> {
+        (self.is_filled, self.density) = (false, inner.unwrap_or_default());
         let Some(total) = self.fill(track, ends, goal) else { return Ok(()) };
         if total <= FEW {
             return Ok(());
