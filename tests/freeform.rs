@@ -93,8 +93,9 @@ fn wave(degree: usize) -> Nurbs {
 }
 
 /// Equal boundaries differ by so many roundings of their size at most, whatever the tolerance is: errors of arcs
-/// near the tolerance say where arcs end, and so round-off of an error over that tolerance moves these ends.
-const SAME_ROUNDINGS: f64 = 4096.0;
+/// near the tolerance say where arcs end, and so round-off of an error over that tolerance moves these ends. (6e3 are
+/// seen, at a tolerance of 1e-7 of the size, where the curve has moved or turned.)
+const SAME_ROUNDINGS: f64 = 16_384.0;
 
 /// A distance that is round-off for a boundary.
 fn round_off(path: &ArcSpline) -> f64 {
