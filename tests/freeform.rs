@@ -93,9 +93,9 @@ fn wave(degree: usize) -> Nurbs {
 }
 
 /// Equal boundaries differ by so many roundings of their size at most, whatever the tolerance is: errors of arcs
-/// near the tolerance say where arcs end, and so round-off of an error over that tolerance moves these ends. (6e3 are
+/// near the tolerance say where arcs end, and so round-off of an error over that tolerance moves these ends. (2700 are
 /// seen, at a tolerance of 1e-7 of the size, where the curve has moved or turned.)
-const SAME_ROUNDINGS: f64 = 16_384.0;
+const SAME_ROUNDINGS: f64 = 8192.0;
 
 /// A distance that is round-off for a boundary.
 fn round_off(path: &ArcSpline) -> f64 {

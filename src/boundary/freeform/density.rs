@@ -38,6 +38,9 @@ const HOPE: f64 = 256.0;
 /// A step of Newton's method as short as this part of the root of the precision is the last: it squares to less.
 const CLOSE_ENOUGH: f64 = 0.5;
 
+/// Parameters of ends that did not move are the same to this, as their round-off must not decide what is kept.
+const SAME: f64 = 1.0 / 1_073_741_824.0;
+
 /// Steps of the search within a leaf.
 const MAX_STEPS: usize = 60;
 
@@ -92,7 +95,7 @@ impl Density {
         let mut inner = std::mem::take(&mut self.leaves);
         self.range = [from, to];
         self.precision = (SHARE * track.noise() / tolerance).clamp(FINEST, COARSEST);
-        if inner.is_empty() || first < from || last > to {
+        if inner.is_empty() || first < from - SAME || last > to + SAME {
             inner.clear();
             self.leaves = inner;
             return self.append(track, [from, to], &density);

@@ -3,7 +3,7 @@
 //! **Needs** so short a part of the curve that a handful of arcs may do, of monotone curvature.
 //! **Guarantees** arcs within the tolerance, proven, whose curvatures are monotone with those of the arcs over
 //! apices. These become longer or shorter: their ends slide along their circles. The same curve run
-//! backwards has the same arcs. **Does not** promise to find arcs where there are any.
+//! backwards, or mirrored, has the same arcs. **Does not** promise to find arcs where there are any.
 //!
 //! **Method.** Each arc leaves the one before to a knot beside the curve; the last two are a biarc, and one arc
 //! alone touches both circles. So tangents agree whatever the parameters are: the slides, the places of knots
