@@ -76,7 +76,7 @@ pub(super) fn sides(frame: &Frame, piece: &Piece, (from, to): (f64, f64)) -> Opt
     let local = Local::of(frame, piece, 0.5 * (from + to), 0.5 * (to - from));
     let (n, d) = local.power(frame);
     let (mut least, mut most) = (0.0f64, 0.0f64);
-    extrema(&n, &d, |value| (least, most) = (least.min(value), most.max(value)));
+    extrema((&n, &d, local.rational), |value| (least, most) = (least.min(value), most.max(value)));
     Some([frame.distance(most), frame.distance(-least)])
 }
 
@@ -231,10 +231,14 @@ fn values(n: &Sextic, d: &Sextic, rational: bool) -> [f64; 4] {
 
 /// Tells the values of `n / d` at the ends and at stationary places between: an arc over an apex errs like a quartic,
 /// and may do so by next to nothing on one side.
-fn extrema(n: &Sextic, d: &Sextic, mut tell: impl FnMut(f64)) {
+fn extrema((n, d, rational): (&Sextic, &Sextic, bool), mut tell: impl FnMut(f64)) {
     // The ratio, and a positive multiple of its derivative and of the next one where that vanishes.
     let ratio = |z: f64| {
-        let ([v, v1, v2], [w, w1, w2]) = (at(n, z), at(d, z));
+        let [v, v1, v2] = at(n, z);
+        if !rational {
+            return (v, v1, v2);
+        }
+        let [w, w1, w2] = at(d, z);
         (v / w, v1 * w - v * w1, v2 * w - v * w2)
     };
     let (mut low, mut before) = (-1.0, ratio(-1.0));
