@@ -8,22 +8,23 @@
 //! Products run over coefficients scaled by binomials, `c[i] * C(n, i)`, where they are plain
 //! convolutions (Farouki and Rajan, *Algorithms for polynomials in Bernstein form*, 1988).
 
-/// Largest degree: `8 d - 11`, the formal degree of the derivative of the curvature for rational
-/// curves of degree `d = 10`.
-pub(super) const MAX_DEGREE: usize = 69;
+/// Room for coefficients of any degree: up to `8 d - 11`, the formal degree of the derivative of the curvature for
+/// rational curves of degree `d = 10`.
+pub(super) const ANY: usize = 70;
 
-const LEN: usize = MAX_DEGREE + 1;
+/// Room for those of curves of degree 3, which are by far the most: up to the degree 13.
+pub(super) const CUBIC: usize = 14;
 
 /// Half a unit in the last place of 1: the relative error of one rounding.
 const ROUNDING: f64 = 0.5 * f64::EPSILON;
 
 /// `BINOMIAL[n][k]` is `n` over `k`, rounded a few times at most for large ones.
-pub(super) static BINOMIAL: [[f64; LEN]; LEN] = binomials();
+pub(super) static BINOMIAL: [[f64; ANY]; ANY] = binomials();
 
-const fn binomials() -> [[f64; LEN]; LEN] {
-    let mut table = [[0.0; LEN]; LEN];
+const fn binomials() -> [[f64; ANY]; ANY] {
+    let mut table = [[0.0; ANY]; ANY];
     let mut n = 0;
-    while n < LEN {
+    while n < ANY {
         table[n][0] = 1.0;
         let mut k = 1;
         while k <= n {
@@ -39,22 +40,22 @@ const fn binomials() -> [[f64; LEN]; LEN] {
 /// to one rounding per row beyond 2^53, at most 16 of them together), two scalings and a division.
 const PRODUCT_ROUNDINGS: f64 = 24.0;
 
-/// A polynomial with errors of its coefficients.
+/// A polynomial with errors of its coefficients, with room for `N` of them.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Poly {
+pub(super) struct Poly<const N: usize> {
     degree: usize,
-    value: [f64; LEN],
-    error: [f64; LEN],
+    value: [f64; N],
+    error: [f64; N],
 }
 
-impl Poly {
+impl<const N: usize> Poly<N> {
     /// From coefficients that all have the same absolute error.
-    pub fn new(coefficients: impl IntoIterator<Item = f64>, error: f64) -> Poly {
+    pub fn new(coefficients: impl IntoIterator<Item = f64>, error: f64) -> Poly<N> {
         Poly::with_errors(coefficients.into_iter().map(|c| (c, error)))
     }
 
     /// From coefficients, each with its own absolute error.
-    pub fn with_errors(coefficients: impl IntoIterator<Item = (f64, f64)>) -> Poly {
+    pub fn with_errors(coefficients: impl IntoIterator<Item = (f64, f64)>) -> Poly<N> {
         let mut p = Poly::zero(0);
         for (i, (value, error)) in coefficients.into_iter().enumerate() {
             (p.degree, p.value[i], p.error[i]) = (i, value, error);
@@ -62,8 +63,8 @@ impl Poly {
         p
     }
 
-    fn zero(degree: usize) -> Poly {
-        Poly { degree, value: [0.0; LEN], error: [0.0; LEN] }
+    fn zero(degree: usize) -> Poly<N> {
+        Poly { degree, value: [0.0; N], error: [0.0; N] }
     }
 
     /// Degree of the form; the polynomial may be of a lower one.
@@ -93,7 +94,7 @@ impl Poly {
     }
 
     /// `a self + b other` for polynomials of one degree.
-    pub fn combined(&self, a: f64, other: &Poly, b: f64) -> Poly {
+    pub fn combined(&self, a: f64, other: &Poly<N>, b: f64) -> Poly<N> {
         debug_assert_eq!(self.degree, other.degree);
         let mut sum = Poly::zero(self.degree);
         for i in 0..=self.degree {
@@ -107,7 +108,7 @@ impl Poly {
     }
 
     /// The derivative.
-    pub fn derivative(&self) -> Poly {
+    pub fn derivative(&self) -> Poly<N> {
         if self.degree == 0 {
             return Poly::zero(0);
         }
@@ -122,7 +123,7 @@ impl Poly {
     }
 
     /// The product.
-    pub fn times(&self, other: &Poly) -> Poly {
+    pub fn times(&self, other: &Poly<N>) -> Poly<N> {
         let (n, m) = (self.degree, other.degree);
         let mut product = Poly::zero(n + m);
         let roundings = ROUNDING * (PRODUCT_ROUNDINGS + n.min(m) as f64);
@@ -153,7 +154,7 @@ impl Poly {
     }
 
     /// The parts before and after `t`, each on 0..=1.
-    pub fn split(&self, t: f64) -> (Poly, Poly) {
+    pub fn split(&self, t: f64) -> (Poly<N>, Poly<N>) {
         let (mut before, mut after) = (Poly::zero(self.degree), *self);
         for k in 0..=self.degree {
             (before.value[k], before.error[k]) = (after.value[0], after.error[0]);
@@ -166,7 +167,7 @@ impl Poly {
 }
 
 /// One step of de Casteljau's scheme: three roundings.
-fn blend(value: &mut [f64; LEN], error: &mut [f64; LEN], i: usize, j: usize, t: f64) {
+fn blend(value: &mut [f64], error: &mut [f64], i: usize, j: usize, t: f64) {
     let (x, y) = ((1.0 - t) * value[i], t * value[j]);
     value[i] = x + y;
     error[i] = (1.0 - t) * error[i] + t * error[j] + 2.0 * ROUNDING * (x.abs() + y.abs());
@@ -175,6 +176,8 @@ fn blend(value: &mut [f64; LEN], error: &mut [f64; LEN], i: usize, j: usize, t: 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    type Poly = super::Poly<ANY>;
 
     #[test]
     fn a_product_is_the_product_of_values() {

@@ -18,9 +18,10 @@ use super::biarc::Arc;
 use super::piece::{MAX_CURVE_DEGREE, Piece};
 use crate::geom::Vector;
 
-/// The bound is at most this many times the largest distance, unless division is given up. So near
-/// that the nodes, which follow from bounds, do not depend on the parameter of the curve.
-pub(super) const TIGHT: f64 = 1.0 + 1.0 / 1_048_576.0;
+/// The bound is at most this many times the largest distance, unless division is given up. So near, at round-off of
+/// distances in tolerances, that the nodes, which follow from them, do not depend on the parameter of the curve; parts
+/// that meet at stationary places double the digits each time.
+pub(super) const TIGHT: f64 = 1.0 + 1.0 / 1_099_511_627_776.0;
 
 /// Divisions before a bound that is not tight is taken as it is.
 const MAX_DIVISIONS: u32 = 24;

@@ -9,6 +9,7 @@ use super::layout::Ends;
 use super::squares::{MOST_PARAMETERS, Parameters};
 use super::track::Track;
 use crate::geom::Vector;
+use std::cell::Cell;
 
 /// So many arcs at most: there are two slides, two parameters for each knot but the last, and the joint.
 pub(super) const MOST_ARCS: usize = MOST_PARAMETERS.div_ceil(2);
@@ -67,7 +68,7 @@ pub(super) struct Chain {
 }
 
 /// What chains of a number of arcs are made of.
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug)]
 pub(super) struct Links<'a, 'b> {
     track: &'a Track<'b>,
     density: &'a Density,
@@ -75,12 +76,16 @@ pub(super) struct Links<'a, 'b> {
     pub ends: [End; 2],
     /// Whether chains run against the curve.
     pub backwards: bool,
+    /// Whether the curvature falls along chains.
+    falls: bool,
     /// The number of arcs.
     pub arcs: usize,
     /// The unit of distances from the curve.
     pub tolerance: f64,
     /// Length of an arc, about.
     length: f64,
+    /// For each knot, how far it was moved along the curve last, and the node there.
+    nodes: [Cell<(f64, Node)>; MOST_ARCS],
 }
 
 impl<'a, 'b> Links<'a, 'b> {
@@ -105,7 +110,9 @@ impl<'a, 'b> Links<'a, 'b> {
         };
         let ends = if backwards { [end(1), end(0)] } else { [end(0), end(1)] };
         let length = (b.place - a.place).length() / arcs as f64;
-        Links { track, density, ends, backwards, arcs, tolerance, length }
+        let falls = ends[1].joined.curvature < ends[0].joined.curvature;
+        let nodes = std::array::from_fn(|_| Cell::new((f64::NAN, Node::default())));
+        Links { track, density, ends, backwards, falls, arcs, tolerance, length, nodes }
     }
 
     /// The number of parameters: those of knots, the slides, and the joint of the last two arcs.
@@ -157,13 +164,17 @@ impl<'a, 'b> Links<'a, 'b> {
     }
 
     /// The place at a share of the density, moved from its own share by a part of one, beside the curve by
-    /// some tolerances.
+    /// some tolerances: to the side that the circle at the far end is on, so that mirrored curves have mirrored knots.
     fn knot(&self, i: usize, along: f64, aside: f64) -> Vector {
-        let part = (i as f64 + along) / self.arcs as f64;
-        let share = self.density.total() * if self.backwards { 1.0 - part } else { part };
-        let share = share.clamp(0.0, self.density.total());
-        let node = self.track.node(self.density.beyond(share, &mut Cursor::default()));
-        let aside = if self.backwards { -aside } else { aside };
+        let (before, mut node) = self.nodes[i].get();
+        if before != along {
+            let part = (i as f64 + along) / self.arcs as f64;
+            let share = self.density.total() * if self.backwards { 1.0 - part } else { part };
+            let share = share.clamp(0.0, self.density.total());
+            node = self.track.node(self.density.beyond(share, &mut Cursor::default()));
+            self.nodes[i].set((along, node));
+        }
+        let aside = if self.backwards != self.falls { -aside } else { aside };
         self.track.grid.snap(node.place + node.tangent.left() * (aside * self.tolerance))
     }
 

@@ -8,7 +8,7 @@
 //! the curvature is stationary) of `(Q'w + 3Qw')S - 3/2 QwS'`: of degree 5 for cubics, `4d - 7` for
 //! polynomials and `8d - 12` for rational pieces of degree `d`.
 
-use super::bernstein::Poly;
+use super::bernstein::{ANY, CUBIC, Poly};
 use super::piece::Piece;
 use super::roots::{Root, isolate};
 use crate::geom::Vector;
@@ -51,7 +51,14 @@ pub(super) fn shape(piece: &Piece, noise: f64) -> Shape {
     if piece.points().iter().all(|&p| (p - piece.start()).cross(along).abs() <= 2.0 * noise) {
         return Shape::Straight { folds: folds(piece, along, noise) };
     }
-    let parts = Numerators::of(piece, noise);
+    match piece.degree() {
+        ..=3 => curved(piece, &Numerators::<CUBIC>::of(piece, noise)),
+        _ => curved(piece, &Numerators::<ANY>::of(piece, noise)),
+    }
+}
+
+/// The shape of a piece that is not straight.
+fn curved<const N: usize>(piece: &Piece, parts: &Numerators<N>) -> Shape {
     let Some(apices) = isolate(&parts.slope) else { return Shape::Round };
     let sign = |from: f64, to: f64| {
         let (value, error) = parts.slope.at(0.5 * (from + to));
@@ -127,7 +134,7 @@ fn find_ways(part: &Piece, along: Vector, noise: f64, (from, to): (f64, f64), wa
 }
 
 /// Where the squared speed vanishes: it cannot be negative, so these are double roots.
-fn cusps(piece: &Piece, speed: &Poly) -> Vec<Root> {
+fn cusps<const N: usize>(piece: &Piece, speed: &Poly<N>) -> Vec<Root> {
     let mut found = isolate(speed).unwrap_or_default();
     for root in &mut found {
         let mut t = root.at;
@@ -143,7 +150,7 @@ fn cusps(piece: &Piece, speed: &Poly) -> Vec<Root> {
 }
 
 /// Sub-curve of `count` control points from `first`, as numerators and denominator.
-fn sub_curve(piece: &Piece, first: usize, count: usize, noise: f64) -> [Poly; 3] {
+fn sub_curve<const N: usize>(piece: &Piece, first: usize, count: usize, noise: f64) -> [Poly<N>; 3] {
     let range = first..first + count;
     let center = piece.points()[piece.degree() / 2];
     let weights = &piece.weights()[range.clone()];
@@ -159,7 +166,7 @@ fn sub_curve(piece: &Piece, first: usize, count: usize, noise: f64) -> [Poly; 3]
 }
 
 /// Numerators of the derivatives of both coordinates, up to a positive factor.
-fn first_derivative(piece: &Piece, noise: f64) -> [Poly; 2] {
+fn first_derivative<const N: usize>(piece: &Piece, noise: f64) -> [Poly<N>; 2] {
     let d = piece.degree();
     if !piece.is_rational() {
         let steps = |c: fn(&Vector) -> f64| {
@@ -173,20 +180,20 @@ fn first_derivative(piece: &Piece, noise: f64) -> [Poly; 2] {
 }
 
 /// `a b - c d`.
-fn minor(a: &Poly, b: &Poly, c: &Poly, d: &Poly) -> Poly {
+fn minor<const N: usize>(a: &Poly<N>, b: &Poly<N>, c: &Poly<N>, d: &Poly<N>) -> Poly<N> {
     a.times(b).combined(1.0, &c.times(d), -1.0)
 }
 
 /// Numerators of squared speed, curvature and derivative of the curvature, up to positive factors.
-struct Numerators {
-    speed: Poly,
-    bend: Poly,
-    slope: Poly,
+struct Numerators<const N: usize> {
+    speed: Poly<N>,
+    bend: Poly<N>,
+    slope: Poly<N>,
 }
 
-impl Numerators {
+impl<const N: usize> Numerators<N> {
     /// Of a piece that is not straight, so its degree is 2 at least.
-    fn of(piece: &Piece, noise: f64) -> Numerators {
+    fn of(piece: &Piece, noise: f64) -> Numerators<N> {
         let [a, b] = first_derivative(piece, noise);
         let speed = a.times(&a).combined(1.0, &b.times(&b), 1.0);
         let bend = bend(piece, noise, [&a, &b]);
@@ -209,16 +216,17 @@ impl Numerators {
     }
 }
 
-fn scaled(p: &Poly) -> Poly {
+fn scaled<const N: usize>(p: &Poly<N>) -> Poly<N> {
     p.combined(1.5, p, 0.0)
 }
 
 /// Numerator of `x'y'' - y'x''`.
-fn bend(piece: &Piece, noise: f64, [a, b]: [&Poly; 2]) -> Poly {
+fn bend<const N: usize>(piece: &Piece, noise: f64, [a, b]: [&Poly<N>; 2]) -> Poly<N> {
     let d = piece.degree();
     if !piece.is_rational() {
-        let part =
-            |p: &Poly, first: usize| Poly::new(p.values()[first..first + d - 1].iter().copied(), 2.0 * noise);
+        let part = |p: &Poly<N>, first: usize| {
+            Poly::new(p.values()[first..first + d - 1].iter().copied(), 2.0 * noise)
+        };
         return minor(&part(a, 0), &part(b, 1), &part(b, 0), &part(a, 1));
     }
     let [x0, y0, w0] = sub_curve(piece, 0, d - 1, noise);

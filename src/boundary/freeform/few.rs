@@ -3,7 +3,7 @@
 //! **Needs** so short a part of the curve that a handful of arcs may do, of monotone curvature.
 //! **Guarantees** arcs within the tolerance, proven, whose curvatures are monotone with those of the arcs over
 //! apices. These become longer or shorter: their ends slide along their circles. The same curve run
-//! backwards has the same arcs. **Does not** promise to find arcs where there are any.
+//! backwards, or mirrored, has the same arcs. **Does not** promise to find arcs where there are any.
 //!
 //! **Method.** Each arc leaves the one before to a knot beside the curve; the last two are a biarc, and one arc
 //! alone touches both circles. So tangents agree whatever the parameters are: the slides, the places of knots
@@ -35,8 +35,8 @@ const GOAL: f64 = 0.9375;
 const HOPELESS: [f64; MAX_STEPS] = [64.0, 6.0, 2.5, 1.625, 1.375, 1.25, 1.125, 1.0625];
 
 /// Difference of a parameter that tells a derivative, in the unit of that parameter: a part of an arc or
-/// the tolerance.
-const DIFFERENCE: f64 = 1.0 / 1024.0;
+/// the tolerance. Round-off of errors becomes larger by its inverse.
+const DIFFERENCE: f64 = 1.0 / 16.0;
 
 /// A parameter is corrected by so many of its units at most.
 const STRIDE: f64 = 0.5;
@@ -139,7 +139,7 @@ impl<'a, 'b> Search<'a, 'b> {
             if worst <= GOAL {
                 return Some(chain);
             }
-            let in_vain = moved <= STRAIGHT && fit.least() > 1.0;
+            let in_vain = moved <= STRAIGHT && fit.least() > GOAL;
             if worst > hopeless || worst.is_nan() || fit.slopes.is_empty() || in_vain {
                 return None;
             }
@@ -247,7 +247,7 @@ mod tests {
         let track = Track::new(&pieces);
         let ends = Ends::of([track.cut_node(0.0, Side::After), track.cut_node(1.0, Side::Before)]);
         let mut density = Density::default();
-        density.fill(&track, &ends.nodes, |bend| bend.speed * bend.slope.abs().cbrt());
+        density.fill(&track, (&ends.nodes, 1e-6), |jet| jet.d1.length() * jet.curvature_slope().abs().cbrt());
         let mut found = Vec::new();
         for arcs in 1..=MOST_ARCS {
             let mut cells = Vec::new();

@@ -1,7 +1,7 @@
 //! What biarcs are laid for, between which ends, and how many of them.
 
 use super::biarc::{Joint, Node};
-use super::piece::Bend;
+use super::piece::Jet;
 use super::spiral::Scheme;
 
 /// The least number of arcs tried, as a part of the number that the density says: it is not that
@@ -86,11 +86,15 @@ impl Goal {
     }
 
     /// Biarcs for each unit of the parameter.
-    pub fn density(&self, least: f64, bend: &Bend) -> f64 {
-        let error = 0.125 * self.constant * bend.slope / self.tolerance;
-        let turn = bend.curvature / MAX_TURN;
-        let (turn, least) = (turn * turn * turn, least * least * least);
-        bend.speed * cube_root((error * error + turn * turn + least * least).sqrt())
+    pub fn density(&self, least: f64, jet: &Jet) -> f64 {
+        // With `speed2` to the third, the sixth power of all has no root and one division.
+        let [speed2, cross, turn] = jet.turn();
+        let error = 0.125 * self.constant / self.tolerance * turn;
+        let (bend, least) = (cross / MAX_TURN, least * least * least);
+        let (cube, sixth) = (speed2 * speed2 * speed2, bend * bend * bend);
+        let inverse = cube.recip();
+        let sum = (error * error + sixth * sixth * inverse) * inverse + least * least * cube;
+        cube_root(sum.sqrt())
     }
 }
 

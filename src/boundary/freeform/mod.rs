@@ -4,7 +4,9 @@
 //! **Guarantees** a chain of segments and arcs within the tolerance of the curve, both ways, to
 //! round-off ([`Fit::bound`]); joints are smooth where the curve is, to the round-off of stored places;
 //! straight and round pieces come out as one segment or arc. The curvature of the arcs has its extrema
-//! where the curve has its apices, so that the medial axis gets no leaf that the drawing does not have.
+//! where the curve has its apices, so that the medial axis gets no leaf that the drawing does not have. The curve
+//! backwards, in other pieces, of a higher degree, with another parameter, moved, turned, scaled or mirrored has the
+//! same arcs to round-off, but for numbers of arcs where round-off decides what fits.
 //! **Does not** reach the least possible number of arcs, and turns within a small part of the tolerance
 //! may come out as corners.
 //!

@@ -41,17 +41,6 @@ pub(super) struct Jet {
     pub d3: Vector,
 }
 
-/// Speed, curvature and its derivative by arc length.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Bend {
-    /// Length by the parameter.
-    pub speed: f64,
-    /// Signed curvature, left turn positive.
-    pub curvature: f64,
-    /// Derivative of the curvature by arc length.
-    pub slope: f64,
-}
-
 impl Jet {
     /// Signed curvature, left turn positive.
     pub fn curvature(&self) -> f64 {
@@ -61,16 +50,17 @@ impl Jet {
 
     /// Derivative of the curvature by arc length.
     pub fn curvature_slope(&self) -> f64 {
-        self.bend().slope
+        let [speed2, _, turn] = self.turn();
+        turn / (speed2 * speed2 * speed2)
     }
 
-    /// How fast the curve runs and bends.
+    /// The squared speed, the curvature times its cube, and the derivative of the curvature by arc length times the
+    /// sixth power of the speed.
     #[inline]
-    pub fn bend(&self) -> Bend {
-        let speed2 = self.d1.length_squared();
-        let (speed, cross) = (speed2.sqrt(), self.d1.cross(self.d2));
+    pub fn turn(&self) -> [f64; 3] {
+        let (speed2, cross) = (self.d1.length_squared(), self.d1.cross(self.d2));
         let turn = self.d1.cross(self.d3) * speed2 - 3.0 * cross * self.d1.dot(self.d2);
-        Bend { speed, curvature: cross / (speed2 * speed), slope: turn / (speed2 * speed2 * speed2) }
+        [speed2, cross, turn]
     }
 }
 
@@ -171,8 +161,9 @@ impl Piece {
                 return (vector(x.0, y.0), vector(x.1, y.1));
             }
             let w = risen(w, t);
-            let q = vector(x.0, y.0) / w.0;
-            return (q, (vector(x.1, y.1) - q * w.1) / w.0);
+            let part = w.0.recip();
+            let q = vector(x.0, y.0) * part;
+            return (q, (vector(x.1, y.1) - q * w.1) * part);
         }
         if self.rational {
             let jet = self.jet(t);
@@ -199,10 +190,11 @@ impl Piece {
         if !self.rational {
             return Jet { q: d(0), d1: d(1), d2: d(2), d3: d(3) };
         }
-        let q = d(0) / w[0];
-        let d1 = (d(1) - q * w[1]) / w[0];
-        let d2 = (d(2) - d1 * (2.0 * w[1]) - q * w[2]) / w[0];
-        let d3 = (d(3) - d2 * (3.0 * w[1]) - d1 * (3.0 * w[2]) - q * w[3]) / w[0];
+        let part = w[0].recip();
+        let q = d(0) * part;
+        let d1 = (d(1) - q * w[1]) * part;
+        let d2 = (d(2) - d1 * (2.0 * w[1]) - q * w[2]) * part;
+        let d3 = (d(3) - d2 * (3.0 * w[1]) - d1 * (3.0 * w[2]) - q * w[3]) * part;
         Jet { q, d1, d2, d3 }
     }
 

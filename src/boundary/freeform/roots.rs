@@ -32,7 +32,7 @@ const DIVISIONS: [f64; 4] = [0.5, 0.4375, 0.59375, 0.328125];
 
 /// The roots of `p` strictly inside 0..=1, ascending. `None` when all signs are hidden: the
 /// polynomial is zero for all that round-off tells.
-pub(super) fn isolate(p: &Poly) -> Option<Vec<Root>> {
+pub(super) fn isolate<const N: usize>(p: &Poly<N>) -> Option<Vec<Root>> {
     if (0..=p.degree()).all(|i| p.sign(i) == 0) {
         return None;
     }
@@ -53,7 +53,7 @@ pub(super) fn isolate(p: &Poly) -> Option<Vec<Root>> {
 }
 
 /// Roots of `p`, which stands for the stretch `from..=to`.
-fn search(p: &Poly, from: f64, to: f64, depth: u32, found: &mut Vec<Root>) {
+fn search<const N: usize>(p: &Poly<N>, from: f64, to: f64, depth: u32, found: &mut Vec<Root>) {
     let n = p.degree();
     let width = to - from;
     let first = if from == 0.0 { certain_start(p) } else { Some(0) };
@@ -81,20 +81,20 @@ fn search(p: &Poly, from: f64, to: f64, depth: u32, found: &mut Vec<Root>) {
 }
 
 /// The first coefficient of certain sign, when those before it can only mean a root at the start.
-fn certain_start(p: &Poly) -> Option<usize> {
+fn certain_start<const N: usize>(p: &Poly<N>) -> Option<usize> {
     let first = (0..=p.degree()).find(|&i| p.sign(i) != 0)?;
     (first == 0 || p.certainty(first).powf(-1.0 / first as f64) <= END).then_some(first)
 }
 
 /// The last coefficient of certain sign, when those behind it can only mean a root at the end.
-fn certain_end(p: &Poly) -> Option<usize> {
+fn certain_end<const N: usize>(p: &Poly<N>) -> Option<usize> {
     let n = p.degree();
     let last = (0..=n).rev().find(|&i| p.sign(i) != 0)?;
     (last == n || p.certainty(last).powf(-1.0 / (n - last) as f64) <= END).then_some(last)
 }
 
 /// Changes of sign from coefficient `first` to `last`; `None` when they are not certain.
-fn variations(p: &Poly, first: usize, last: usize) -> Option<usize> {
+fn variations<const N: usize>(p: &Poly<N>, first: usize, last: usize) -> Option<usize> {
     let (mut count, mut before) = (0, p.sign(first));
     let mut hidden = false;
     for i in first..=last {
@@ -115,11 +115,12 @@ fn variations(p: &Poly, first: usize, last: usize) -> Option<usize> {
 }
 
 /// The one root of a polynomial that changes its sign once between its certain ends.
-fn bracketed(p: &Poly, first: usize, last: usize) -> f64 {
+fn bracketed<const N: usize>(p: &Poly<N>, first: usize, last: usize) -> f64 {
     // Hidden ends count as having the sign of the first certain coefficient.
     let (mut low, mut high) = (0.0, 1.0);
     let (mut at_low, mut at_high) = (p.values()[first], p.values()[last]);
     let mut side = 0;
+    let mut before = None;
     for step in 0..MAX_STEPS {
         let secant = low + (high - low) * at_low / (at_low - at_high);
         let t = if step % 8 == 7 { 0.5 * (low + high) } else { secant };
@@ -128,8 +129,11 @@ fn bracketed(p: &Poly, first: usize, last: usize) -> f64 {
         }
         let (value, error) = p.at(t);
         if value.abs() <= error {
-            return t;
+            // Bounds of round-off are far above round-off itself: one more step of the secant is for the better.
+            let next = before.map_or(t, |(u, v): (f64, f64)| t - value * (t - u) / (value - v));
+            return if next > low && next < high { next } else { t };
         }
+        before = Some((t, value));
         // Illinois: an end that stays counts half.
         if (value > 0.0) == (at_low > 0.0) {
             (low, at_low) = (t, value);
@@ -151,6 +155,9 @@ fn bracketed(p: &Poly, first: usize, last: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::boundary::freeform::bernstein::ANY;
+
+    type Poly = super::Poly<ANY>;
 
     /// The product of `t - r` over some roots, in Bernstein form.
     fn with_roots(roots: &[f64]) -> Poly {

@@ -177,11 +177,17 @@ struct Draft {
     ends: Ends,
     /// The density of biarcs along it, once that is known.
     density: Option<Density>,
+    /// The density between its ends as they were before.
+    inner: Option<Density>,
 }
 
 impl Draft {
-    fn is_like(&self, other: &Draft) -> bool {
-        (&self.stretches, self.care, self.at) == (&other.stretches, other.care, other.at)
+    /// Takes over what is known of the same part, whose ends may have moved.
+    fn learn(&mut self, old: &mut Draft) {
+        if (&self.stretches, self.care) == (&old.stretches, old.care) {
+            let to = if self.at == old.at { &mut self.density } else { &mut self.inner };
+            *to = old.density.take();
+        }
     }
 }
 
@@ -194,7 +200,7 @@ struct Laid {
     apex_arcs: BTreeMap<(usize, i32), Option<ApexArc>>,
     /// Where arcs over apices leave no way for biarcs beside them.
     lost: Vec<f64>,
-    /// Parts that were not laid for that.
+    /// The parts between nodes and arcs over apices, with what is known of them.
     drafts: Vec<Draft>,
 }
 
@@ -206,7 +212,7 @@ impl Laid {
         for draft in &mut drafts {
             if draft.density.is_none() && self.known(draft).is_none() {
                 let goal = (work.tolerance, CAREFUL[draft.care]);
-                let checked = work.fitter.check(work.track, &draft.ends, goal);
+                let checked = work.fitter.check(work.track, &draft.ends, (goal, draft.inner.take()));
                 draft.density = Some(work.fitter.density());
                 self.note(draft, checked, work)?;
             }
@@ -216,14 +222,14 @@ impl Laid {
             return Some(());
         }
         let mut parts = Vec::with_capacity(2 * drafts.len());
-        for draft in drafts {
+        for draft in &mut drafts {
             let (to, end) = (draft.stretches.end, draft.at[1]);
             parts.push(self.part(draft, work)?);
             if matches!(end, At::Apex(_)) {
                 parts.push(Part { stretches: to..to, care: 0, at: [end; 2], cells: 0..0 });
             }
         }
-        self.parts = parts;
+        (self.parts, self.drafts) = (parts, drafts);
         self.close(work);
         Some(())
     }
@@ -266,11 +272,10 @@ impl Laid {
             }
             let at = [from, to].map(|i| self.at(i, work, plan));
             let ends = self.ends(from..to, at, work)?;
-            let mut draft = Draft { stretches: from..to, care: plan.care[from], at, ends, density: None };
-            if let Ok(old) = before.binary_search_by_key(&from, |d| d.stretches.start)
-                && before[old].is_like(&draft)
-            {
-                draft.density = before[old].density.take();
+            let care = plan.care[from];
+            let mut draft = Draft { stretches: from..to, care, at, ends, density: None, inner: None };
+            if let Ok(old) = before.binary_search_by_key(&from, |d| d.stretches.start) {
+                draft.learn(&mut before[old]);
             }
             drafts.push(draft);
             from = to;
@@ -321,17 +326,17 @@ impl Laid {
         Some(&self.parts[old]).filter(|part| part.care == draft.care && part.at == draft.at)
     }
 
-    fn part(&mut self, draft: Draft, work: &mut Work) -> Option<Part> {
-        if let Some(part) = self.known(&draft) {
+    fn part(&mut self, draft: &mut Draft, work: &mut Work) -> Option<Part> {
+        if let Some(part) = self.known(draft) {
             return Some(part.clone());
         }
         let begin = self.cells.len();
         let goal = (work.tolerance, CAREFUL[draft.care]);
-        let mut draft = draft;
         work.fitter.take(draft.density.take());
         let laid = work.fitter.fit(work.track, &draft.ends, goal, &mut self.cells);
-        self.note(&draft, laid, work)?;
-        let Draft { stretches, care, at, .. } = draft;
+        draft.density = Some(work.fitter.density());
+        self.note(draft, laid, work)?;
+        let (stretches, care, at) = (draft.stretches.clone(), draft.care, draft.at);
         Some(Part { stretches, care, at, cells: begin..self.cells.len() })
     }
 

@@ -26,6 +26,9 @@ const SLACKS: [f64; 3] = [1.0 / 256.0, 1.0 / 64.0, 1.0 / 16.0];
 const STEPS: usize = 8;
 const LAST_STEP: f64 = 1e-3;
 
+/// Parts in which stationary places are looked for where all of them count.
+const PARTS: i32 = 8;
+
 /// A polynomial of degree 6.
 type Sextic = [f64; 2 * DEGREE + 1];
 
@@ -51,10 +54,11 @@ pub(super) fn measure(frame: &Frame, piece: &Piece, (from, to): (f64, f64), limi
     let (n, d) = local.power(frame);
     let found = values(&n, &d, local.rational).iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     let within = frame.power(limit);
+    let proof = Proof::of(&n, &d, local.rational);
     let near = |slack: f64| {
         let bound = found * (1.0 + slack);
         let bound = if found <= within { bound.min(within) } else { bound };
-        exceeds(&n, &d, bound).then_some(bound)
+        proof.holds(bound).then_some(bound)
     };
     let bound = SLACKS.iter().find_map(|&slack| near(slack))?;
     let [distance, found] = [bound, found].map(|power| frame.distance(power));
@@ -71,9 +75,9 @@ pub(super) fn sides(frame: &Frame, piece: &Piece, (from, to): (f64, f64)) -> Opt
     }
     let local = Local::of(frame, piece, 0.5 * (from + to), 0.5 * (to - from));
     let (n, d) = local.power(frame);
-    let found = values(&n, &d, local.rational);
-    let most = |sign: f64| frame.distance(found.iter().fold(0.0, |m: f64, v| m.max(sign * v)));
-    Some([most(1.0), most(-1.0)])
+    let (mut least, mut most) = (0.0f64, 0.0f64);
+    extrema((&n, &d, local.rational), |value| (least, most) = (least.min(value), most.max(value)));
+    Some([frame.distance(most), frame.distance(-least)])
 }
 
 impl Local {
@@ -111,13 +115,17 @@ impl Local {
         let (k, q) = (frame.half_curvature, frame.half * frame.half);
         let (mut n, mut d) = ([0.0; 7], [0.0; 7]);
         if !self.rational {
-            for i in 0..=DEGREE {
-                n[i] += frame.cos * self.y[i];
-                for j in 0..=DEGREE {
-                    n[i + j] -= k * (self.x[i] * self.x[j] + self.y[i] * self.y[j]);
-                }
-            }
-            n[0] += k * q;
+            let square = |i: usize| self.x[i] * self.x[i] + self.y[i] * self.y[i];
+            let twice = |i: usize, j: usize| 2.0 * (self.x[i] * self.x[j] + self.y[i] * self.y[j]);
+            n = [
+                frame.cos * self.y[0] + k * (q - square(0)),
+                frame.cos * self.y[1] - k * twice(0, 1),
+                frame.cos * self.y[2] - k * (twice(0, 2) + square(1)),
+                frame.cos * self.y[3] - k * (twice(0, 3) + twice(1, 2)),
+                -k * (twice(1, 3) + square(2)),
+                -k * twice(2, 3),
+                -k * square(3),
+            ];
             d[0] = 1.0;
             return (n, d);
         }
@@ -145,17 +153,45 @@ fn at(p: &Sextic, z: f64) -> [f64; 3] {
     [v, v1, 2.0 * v2]
 }
 
-/// The coefficients of the cubic that is left without the Chebyshev polynomials of degree 4 to 6, and
-/// the sum of what those contribute at most.
-#[inline]
-fn cubic(p: &Sextic) -> ([f64; 4], f64) {
-    // z^6 = (10 + 15 T2 + 6 T4 + T6) / 32, z^5 = (10 T1 + 5 T3 + T5) / 16, z^4 = (3 + 4 T2 + T4) / 8.
-    let [p0, p1, p2, p3, p4, p5, p6] = *p;
-    let (t2, t3) = (0.5 * p4 + 15.0 / 32.0 * p6, 0.3125 * p5);
-    let rest = (0.125 * p4 + 0.1875 * p6).abs() + 0.0625 * p5.abs() + 0.03125 * p6.abs();
-    let c0 = p0 + 0.375 * p4 + 0.3125 * p6 - t2;
-    let c1 = p1 + 0.625 * p5 - 3.0 * t3;
-    ([c0, c1, p2 + 2.0 * t2, p3 + 4.0 * t3], rest)
+/// A cubic, and what is left of a polynomial of degree 6 beside it: coefficients of Chebyshev polynomials of degree 4
+/// to 6.
+#[derive(Clone, Copy)]
+struct Split {
+    cubic: [f64; 4],
+    rest: [f64; 3],
+}
+
+impl Split {
+    #[inline]
+    fn of(p: &Sextic) -> Split {
+        // z^6 = (10 + 15 T2 + 6 T4 + T6) / 32, z^5 = (10 T1 + 5 T3 + T5) / 16, z^4 = (3 + 4 T2 + T4) / 8.
+        let [p0, p1, p2, p3, p4, p5, p6] = *p;
+        let (t2, t3) = (0.5 * p4 + 15.0 / 32.0 * p6, 0.3125 * p5);
+        let c0 = p0 + 0.375 * p4 + 0.3125 * p6 - t2;
+        let c1 = p1 + 0.625 * p5 - 3.0 * t3;
+        let rest = [0.125 * p4 + 0.1875 * p6, 0.0625 * p5, 0.03125 * p6];
+        Split { cubic: [c0, c1, p2 + 2.0 * t2, p3 + 4.0 * t3], rest }
+    }
+
+    /// Some times another one, and this one times a sign.
+    fn combined(&self, sign: f64, other: &Split, times: f64) -> Split {
+        let cubic = std::array::from_fn(|i| times * other.cubic[i] + sign * self.cubic[i]);
+        Split { cubic, rest: std::array::from_fn(|i| times * other.rest[i] + sign * self.rest[i]) }
+    }
+
+    /// What the rest contributes at most.
+    #[inline]
+    fn rest(&self) -> f64 {
+        self.rest[0].abs() + self.rest[1].abs() + self.rest[2].abs()
+    }
+
+    /// The cubic at the ends and where it is stationary.
+    #[inline]
+    fn values(&self) -> [f64; 4] {
+        let c = &self.cubic;
+        let [a, b] = stationary(c);
+        [-1.0, 1.0, a, b].map(|z| c[0] + z * (c[1] + z * (c[2] + z * c[3])))
+    }
 }
 
 /// Places inside where a cubic is stationary; others are the ends next to them, so that it does not
@@ -170,7 +206,7 @@ fn stationary([_, c1, c2, c3]: &[f64; 4]) -> [f64; 2] {
 /// Values of `n / d` at the ends and where it is stationary.
 fn values(n: &Sextic, d: &Sextic, rational: bool) -> [f64; 4] {
     let ratio = |z: f64| at(n, z)[0] / if rational { at(d, z)[0] } else { 1.0 };
-    let inner = stationary(&cubic(n).0).map(|mut z| {
+    let inner = stationary(&Split::of(n).cubic).map(|mut z| {
         for _ in 0..STEPS {
             let [v, v1, v2] = at(n, z);
             let step = if rational {
@@ -193,18 +229,67 @@ fn values(n: &Sextic, d: &Sextic, rational: bool) -> [f64; 4] {
     [ratio(-1.0), ratio(1.0), inner[0], inner[1]]
 }
 
-/// Whether `bound d` is above the absolute value of `n` for certain.
-fn exceeds(n: &Sextic, d: &Sextic, bound: f64) -> bool {
-    [1.0, -1.0].iter().all(|sign| {
-        let mut p = [0.0; 7];
-        for i in 0..7 {
-            p[i] = bound * d[i] + sign * n[i];
+/// Tells the values of `n / d` at the ends and at stationary places between: an arc over an apex errs like a quartic,
+/// and may do so by next to nothing on one side.
+fn extrema((n, d, rational): (&Sextic, &Sextic, bool), mut tell: impl FnMut(f64)) {
+    // The ratio, and a positive multiple of its derivative and of the next one where that vanishes.
+    let ratio = |z: f64| {
+        let [v, v1, v2] = at(n, z);
+        if !rational {
+            return (v, v1, v2);
         }
-        let (c, rest) = cubic(&p);
-        let value = |z: f64| c[0] + z * (c[1] + z * (c[2] + z * c[3]));
-        let [a, b] = stationary(&c);
-        value(-1.0).min(value(1.0)).min(value(a)).min(value(b)) >= rest
-    })
+        let [w, w1, w2] = at(d, z);
+        (v / w, v1 * w - v * w1, v2 * w - v * w2)
+    };
+    let (mut low, mut before) = (-1.0, ratio(-1.0));
+    tell(before.0);
+    for i in 1..=PARTS {
+        let high = 2.0 * f64::from(i) / f64::from(PARTS) - 1.0;
+        let next = ratio(high);
+        if before.1 * next.1 < 0.0 {
+            let mut z = low + (high - low) * before.1 / (before.1 - next.1);
+            for _ in 0..STEPS {
+                let (_, slope, change) = ratio(z);
+                let step = slope / change;
+                let inside = z - step > low && z - step < high;
+                z = if inside { z - step } else { 0.5 * (low + high) };
+                if inside && step.abs() <= LAST_STEP {
+                    break;
+                }
+            }
+            tell(ratio(z).0);
+        }
+        (low, before) = (high, next);
+    }
+    tell(before.0);
+}
+
+/// What shows that a bound of `|n / d|` holds: `bound d` is above the absolute value of `n` for certain.
+enum Proof {
+    /// Without a denominator every bound holds that is not less.
+    Plain { least: f64 },
+    /// The numerator and the denominator.
+    Rational { n: Split, d: Split },
+}
+
+impl Proof {
+    fn of(n: &Sextic, d: &Sextic, rational: bool) -> Proof {
+        let n = Split::of(n);
+        if rational {
+            return Proof::Rational { n, d: Split::of(d) };
+        }
+        Proof::Plain { least: n.values().iter().fold(0.0, |m: f64, v| m.max(v.abs())) + n.rest() }
+    }
+
+    fn holds(&self, bound: f64) -> bool {
+        match self {
+            Proof::Plain { least } => bound >= *least,
+            Proof::Rational { n, d } => [1.0, -1.0].iter().all(|&sign| {
+                let p = n.combined(sign, d, bound);
+                p.values().iter().fold(f64::INFINITY, |m: f64, v| m.min(*v)) >= p.rest()
+            }),
+        }
+    }
 }
 
 #[cfg(test)]

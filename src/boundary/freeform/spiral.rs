@@ -72,14 +72,15 @@ impl Fitter {
         self.spread.take(density);
     }
 
-    /// Whether biarcs may fit, as far as that can be told before they are laid.
+    /// Whether biarcs may fit, as far as that can be told before they are laid; their density may be known between
+    /// ends nearer to each other.
     pub fn check(
         &mut self,
         track: &Track,
         ends: &Ends,
-        (tolerance, scheme): (f64, Scheme),
+        ((tolerance, scheme), inner): ((f64, Scheme), Option<Density>),
     ) -> Result<(), Lost> {
-        self.spread.check(track, ends, &Goal::of(scheme, tolerance))
+        self.spread.check(track, ends, (&Goal::of(scheme, tolerance), inner))
     }
 
     /// Appends biarcs from one node to another, unless the limit on effort is reached, or nothing fits

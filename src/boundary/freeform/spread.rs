@@ -109,9 +109,15 @@ impl Spread {
         self.density = density.unwrap_or_default();
     }
 
-    /// Whether tangents at ends suit the biarcs beside them, if those ends may yield.
-    pub fn check(&mut self, track: &Track, ends: &Ends, goal: &Goal) -> Result<(), Lost> {
-        self.is_filled = false;
+    /// Whether tangents at ends suit the biarcs beside them, if those ends may yield. The density may be known between
+    /// ends nearer to each other.
+    pub fn check(
+        &mut self,
+        track: &Track,
+        ends: &Ends,
+        (goal, inner): (&Goal, Option<Density>),
+    ) -> Result<(), Lost> {
+        (self.is_filled, self.density) = (false, inner.unwrap_or_default());
         let Some(total) = self.fill(track, ends, goal) else { return Ok(()) };
         if total <= FEW {
             return Ok(());
@@ -188,7 +194,7 @@ impl Spread {
         let chord = (ends.nodes[1].place - ends.nodes[0].place).length();
         let least = LEAST / if chord > 0.0 { chord } else { track.extent() };
         if !std::mem::take(&mut self.is_filled) {
-            self.density.fill(track, &ends.nodes, |bend| goal.density(least, bend));
+            self.density.fill(track, (&ends.nodes, goal.tolerance), |jet| goal.density(least, jet));
         }
         let total = self.density.total();
         self.marks.clear();

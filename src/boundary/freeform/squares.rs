@@ -45,7 +45,7 @@ impl Squares {
             for ((to, w), a) in weighted.iter_mut().zip(&self.weights).zip(slope) {
                 *to = w * a;
             }
-            let with = |other: &[f64]| weighted.iter().zip(other).map(|(a, b)| a * b).sum::<f64>();
+            let with = |other: &[f64]| dot(&weighted, other);
             for (j, other) in self.slopes.iter().enumerate().skip(i) {
                 let sum = with(other);
                 (matrix[i][j], matrix[j][i]) = (sum, sum);
@@ -63,6 +63,17 @@ impl Squares {
             *weight *= error.abs() / worst + DAMPING;
         }
     }
+}
+
+/// The sum of products, four of them side by side.
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let (a, b) = (a.chunks_exact(4), b.chunks_exact(4));
+    let rest: f64 = a.remainder().iter().zip(b.remainder()).map(|(x, y)| x * y).sum();
+    let mut sums = [0.0; 4];
+    for (x, y) in a.zip(b) {
+        (0..4).for_each(|i| sums[i] += x[i] * y[i]);
+    }
+    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
 }
 
 /// Solves a symmetric system with positive pivots.

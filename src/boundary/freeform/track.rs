@@ -170,7 +170,7 @@ impl<'a> Track<'a> {
             if !((0.0..=1.0).contains(&t) && (u - from.u) * (near - from.u) > 0.0) {
                 return None;
             }
-            if step.abs() <= CLOSE_ENOUGH.sqrt() * far {
+            if step.abs() <= NEAR_ENOUGH * far {
                 return Some(u);
             }
         }
@@ -349,6 +349,9 @@ fn refined(piece: &Piece, mut near: f64, mut far: f64, place: Vector, distance: 
 
 /// Steps of Newton's method from a parameter nearby, before the search begins anew.
 const NEAR_STEPS: usize = 6;
+
+/// A step of Newton's method so much shorter than the distance squares to less than round-off.
+const NEAR_ENOUGH: f64 = 1e-7;
 
 /// A step of Newton's method so much shorter than the bracket squares to less than round-off.
 const CLOSE_ENOUGH: f64 = 1e-9;
