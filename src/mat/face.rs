@@ -313,8 +313,20 @@ pub(super) fn common_reach(sites: &[Site], track: &Track<'_>, t: f64, pieces: [&
     if (a - b).abs() <= TIE_ERROR || !(a.is_finite() || b.is_finite()) {
         return a.min(b);
     }
-    let [before, after] = [t - f64::EPSILON, t + f64::EPSILON].map(reach);
-    // How much the reach to a piece changes within roundings of the place; what stays infinite does not.
+    JUMP_ROUNDINGS
+        .iter()
+        .find_map(|roundings| steadier(t, roundings * f64::EPSILON, [a, b], reach))
+        // Neither gets past the other: the parameter is at an end, and the smaller holds the disk back.
+        .unwrap_or(a.min(b))
+}
+
+/// Roundings of a parameter within which a reach may go back and forth where it jumps, one number after the other.
+const JUMP_ROUNDINGS: [f64; 4] = [1.0, 8.0, 64.0, 512.0];
+
+/// Of two reaches that change sides within a stretch of the parameter the one that changes less; what stays
+/// infinite does not change.
+fn steadier(t: f64, stretch: f64, [a, b]: [f64; 2], reach: impl Fn(f64) -> [f64; 2]) -> Option<f64> {
+    let [before, after] = [t - stretch, t + stretch].map(reach);
     let change = |i: usize| {
         let all = [before[i], [a, b][i], after[i]];
         if all.iter().all(|r| r.is_infinite()) {
@@ -323,13 +335,14 @@ pub(super) fn common_reach(sites: &[Site], track: &Track<'_>, t: f64, pieces: [&
         all.into_iter().fold(0.0, f64::max) - all.into_iter().fold(f64::INFINITY, f64::min)
     };
     let [of_a, of_b] = [change(0), change(1)];
-    // Where neither gets past the other, the parameter is at an end, and the smaller holds the disk back.
-    let is_crossing = of_a.max(of_b) >= (a - b).abs();
-    match of_a.total_cmp(&of_b) {
-        Ordering::Less if is_crossing => a,
-        Ordering::Greater if is_crossing => b,
-        _ => a.min(b),
+    if of_a.max(of_b) < (a - b).abs() {
+        return None;
     }
+    Some(match of_a.total_cmp(&of_b) {
+        Ordering::Less => a,
+        Ordering::Greater => b,
+        Ordering::Equal => a.min(b),
+    })
 }
 
 /// Newton's step for the disk tangent to three carriers: `distance_i(c) = r`, gradients are normals.

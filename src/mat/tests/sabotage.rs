@@ -3,6 +3,7 @@
 use crate::boundary::Pocket;
 use crate::geom::{ArcSpline, Vector, point};
 use crate::mat::bvh::Bvh;
+use crate::mat::check::Doubt;
 use crate::mat::frame::Frame;
 use crate::mat::lamination::Lamination;
 use crate::mat::shot::{Shot, shoot_all};
