@@ -154,7 +154,7 @@ fn inside(range: &std::ops::Range<usize>, first: usize, level: u32) -> u32 {
 const SIDE: u32 = 1 << 16;
 
 /// Place of a point of the unit frame along a Hilbert curve.
-fn hilbert(p: Point) -> u32 {
+pub(super) fn hilbert(p: Point) -> u32 {
     let cell = |c: f64| (((c + 1.0) * 0.5 * f64::from(SIDE)) as u32).min(SIDE - 1);
     hilbert_place(cell(p.x), cell(p.y))
 }

@@ -22,6 +22,7 @@ mod bvh;
 mod check;
 mod conic;
 mod contacts;
+mod course;
 mod division;
 mod face;
 mod frame;
@@ -50,8 +51,7 @@ pub use check::Residuals;
 pub use transform::{Counts, Mat, Mismatch};
 pub use vertex::{AxisEdge, AxisVertex, Disk, Kind, SiteKind, SiteRef};
 
-pub(crate) use graph::{BoundaryPiece, GraphEdge};
-pub(crate) use piece::Piece;
+pub(crate) use course::{After, Course, Ring, Stop, Way};
 pub(crate) use root::falling_root;
 pub(crate) use site::{Foot, NONE, Site};
 pub(crate) use track::Track;

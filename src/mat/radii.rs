@@ -1,66 +1,46 @@
 //! Where on the axis the radius takes a value, without looking at all of it.
 
+use super::course::Course;
 use super::graph::Graph;
 use super::kinds::Kinds;
-use super::site::NONE;
+use super::site::Site;
+use std::ops::Range;
 
-/// Index of edges, boundary rings and peaks by radius.
+/// Index of the boundary and of peaks by radius.
 #[derive(Clone, Debug)]
 pub(crate) struct Radii {
-    /// Edges sorted by their smaller radius.
-    low: Vec<(f64, u32)>,
-    /// Binary tree over that order, from the root: the greatest radius below each node.
-    high: Vec<f64>,
-    /// One piece of every ring of the boundary, with the smallest radius along it.
-    pub rings: Vec<(u32, f64)>,
+    pub course: Course,
+    /// Least and greatest radius from the first stop of each block to that after its last one; then those
+    /// of blocks of such blocks, up to one.
+    blocks: Vec<Vec<[f64; 2]>>,
     /// Vertices on peaks, sorted by radius.
     peaks: Vec<(f64, u32)>,
     /// Radii closer than this are equal.
     error: f64,
 }
 
+/// Stops to a block: as many as are compared in the time that it takes to come to another block.
+const BLOCK: usize = 16;
+
 impl Radii {
-    pub fn of(graph: &Graph, kinds: &Kinds) -> Radii {
-        let ends = |e: u32| graph.edges[e as usize].disks.map(|d| graph.disks[d as usize].radius);
-        let mut low: Vec<(f64, u32)> =
-            (0..graph.edges.len() as u32).map(|e| (ends(e)[0].min(ends(e)[1]), e)).collect();
-        low.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        let leaves = low.len().next_power_of_two();
-        let mut high = vec![f64::NEG_INFINITY; 2 * leaves];
-        for (i, &(_, e)) in low.iter().enumerate() {
-            high[leaves + i] = ends(e)[0].max(ends(e)[1]);
-        }
-        for i in (1..leaves).rev() {
-            high[i] = high[2 * i].max(high[2 * i + 1]);
-        }
+    pub fn of(sites: &[Site], graph: &Graph, kinds: &Kinds) -> Radii {
+        let course = Course::of(sites, graph);
         let on_peak = |i: &u32| kinds.on_peak[*i as usize];
         let mut peaks: Vec<(f64, u32)> = (0..graph.disks.len() as u32)
             .filter(on_peak)
             .map(|i| (graph.disks[i as usize].radius, i))
             .collect();
         peaks.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        Radii { low, high, rings: rings(graph), peaks, error: graph.error }
+        Radii { blocks: blocks(&course.radii), course, peaks, error: graph.error }
     }
 
-    /// Edges whose radii reach from below or at `d` to `d` or above, to round-off, in order of id.
-    pub fn edges_at(&self, d: f64) -> Vec<u32> {
-        let end = self.low.partition_point(|&(low, _)| low <= d + self.error);
-        let leaves = self.high.len() / 2;
-        let mut found = Vec::new();
-        let mut open = vec![(1usize, 0usize, leaves)];
-        while let Some((node, first, count)) = open.pop() {
-            if first >= end || self.high[node] < d - self.error {
-                continue;
-            }
-            if count == 1 {
-                found.push(self.low[first].1);
-                continue;
-            }
-            open.push((2 * node, first, count / 2));
-            open.push((2 * node + 1, first + count / 2, count / 2));
+    /// Shows the stops, in the order of the boundary, from which the radius comes to more than `d`, and those
+    /// from which or to which it is `d`, to round-off.
+    pub fn search(&self, d: f64, rises: impl FnMut(u32), equals: impl FnMut(u32)) {
+        let mut search = Search { radii: self, d, rises, equals };
+        if let Some(top) = self.blocks.len().checked_sub(1) {
+            search.blocks(top, 0..self.blocks[top].len());
         }
-        found.sort_unstable();
-        found
     }
 
     /// Vertices on peaks of radius `d`, to round-off.
@@ -70,28 +50,70 @@ impl Radii {
     }
 }
 
-/// Walks around the boundary.
-fn rings(graph: &Graph) -> Vec<(u32, f64)> {
-    let mut seen = vec![false; graph.pieces.len()];
-    let mut rings = Vec::new();
-    let mut lone = graph.lone_disks().into_iter().map(|d| graph.disks[d as usize].radius);
-    for first in 0..graph.pieces.len() as u32 {
-        // What stands for a crossing of a link is no piece; nothing leads to it.
-        if seen[first as usize] || graph.pieces[first as usize].next == NONE {
-            continue;
-        }
-        let (mut at, mut least) = (first, f64::INFINITY);
-        while !seen[at as usize] {
-            seen[at as usize] = true;
-            let piece = &graph.pieces[at as usize];
-            if piece.edge != NONE {
-                let radii = graph.edges[piece.edge as usize].disks.map(|d| graph.disks[d as usize].radius);
-                least = least.min(radii[0]).min(radii[1]);
+/// A search for a radius.
+struct Search<'a, R, E> {
+    radii: &'a Radii,
+    d: f64,
+    rises: R,
+    equals: E,
+}
+
+impl<R: FnMut(u32), E: FnMut(u32)> Search<'_, R, E> {
+    /// In some blocks of one size.
+    fn blocks(&mut self, depth: usize, range: Range<usize>) {
+        let [low, high] = [self.d - self.radii.error, self.d + self.radii.error];
+        let blocks = &self.radii.blocks[depth];
+        for i in range {
+            if blocks[i][0] > high || blocks[i][1] < low {
+                continue;
             }
-            at = piece.next;
+            match depth.checked_sub(1) {
+                None => self.stops(i),
+                Some(below) => {
+                    let end = ((i + 1) * BLOCK).min(self.radii.blocks[below].len());
+                    self.blocks(below, i * BLOCK..end);
+                }
+            }
         }
-        // A ring without edges is all contact arc: the pocket, or a part of it, is one disk.
-        rings.push((first, if least.is_finite() { least } else { lone.next().unwrap_or(0.0) }));
     }
-    rings
+
+    /// In one block of stops, a bit for each.
+    fn stops(&mut self, block: usize) {
+        let first = block * BLOCK;
+        let radii = &self.radii.course.radii[first..];
+        let radii = &radii[..radii.len().min(BLOCK + 1)];
+        let (mut larger, mut equal) = (0u32, 0u32);
+        for (i, &radius) in radii.iter().enumerate() {
+            larger |= u32::from(radius > self.d + self.radii.error) << i;
+            equal |= u32::from((radius - self.d).abs() <= self.radii.error) << i;
+        }
+        let all = (1 << (radii.len() - 1)) - 1;
+        bits(!larger & (larger >> 1) & all).for_each(|i| (self.rises)(first as u32 + i));
+        bits((equal | equal >> 1) & all).for_each(|i| (self.equals)(first as u32 + i));
+    }
+}
+
+/// The bits that are set.
+fn bits(mut word: u32) -> impl Iterator<Item = u32> {
+    std::iter::from_fn(move || {
+        let lowest = word.trailing_zeros();
+        word &= word.wrapping_sub(1);
+        (lowest < u32::BITS).then_some(lowest)
+    })
+}
+
+fn blocks(radii: &[f64]) -> Vec<Vec<[f64; 2]>> {
+    let around = |a: [f64; 2], b: [f64; 2]| [a[0].min(b[0]), a[1].max(b[1])];
+    let none = [f64::INFINITY, f64::NEG_INFINITY];
+    let starts = (0..radii.len().saturating_sub(1)).step_by(BLOCK);
+    let first = starts.map(|i| {
+        let members = &radii[i..(i + BLOCK + 1).min(radii.len())];
+        members.iter().fold(none, |all, &r| around(all, [r, r]))
+    });
+    let mut blocks: Vec<Vec<[f64; 2]>> = vec![first.collect()];
+    while blocks[blocks.len() - 1].len() > 1 {
+        let members = blocks[blocks.len() - 1].chunks(BLOCK);
+        blocks.push(members.map(|of| of.iter().fold(none, |all, &b| around(all, b))).collect());
+    }
+    blocks
 }

@@ -59,6 +59,12 @@ impl Site {
         if self.curvature > 0.0 && !self.is_vertex { self.curvature.recip() } else { f64::INFINITY }
     }
 
+    /// Whether it is a segment.
+    #[inline]
+    pub fn is_straight(&self) -> bool {
+        self.curvature == 0.0 && !self.is_vertex
+    }
+
     /// A box around it, at most twice as deep as its sagitta: around ends and tangents' meet.
     pub fn bounds(&self) -> Bounds {
         let ends = Bounds::around([self.start.point, self.end.point]);

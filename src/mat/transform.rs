@@ -161,7 +161,7 @@ impl Mat {
 
     /// The index by radius, made when the first level asks for it.
     pub(crate) fn radii(&self) -> &Radii {
-        self.radii.get_or_init(|| Radii::of(&self.graph, &self.kinds))
+        self.radii.get_or_init(|| Radii::of(&self.sites, &self.graph, &self.kinds))
     }
 
     /// The vertices, in job units.

@@ -11,24 +11,114 @@
 
 use super::trace::Tracer;
 use crate::geom::{Point, Vector, vector};
-use crate::mat::{GraphEdge, Piece, Site, Track, falling_root};
+use crate::mat::{Foot, Site, Track, Way, falling_root};
+
+/// Crossings that are looked for side by side: neither memory nor roots are waited for one by one.
+const AT_A_TIME: usize = 16;
+
+/// Where the level crosses an edge, seen from the piece that runs into the inside.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Entry {
+    pub stop: u32,
+    pub edge: u32,
+    pub center: Point,
+    /// Turn of the normal from here to the end of the piece.
+    pub entering: f64,
+    /// Turn of the normal from the beginning of the piece on the other side up to here.
+    pub leaving: f64,
+}
+
+/// A place on an edge and the normals of the pieces along it and against it.
+struct Crossing {
+    center: Point,
+    normals: [Vector; 2],
+}
+
+/// An edge between the pieces along it and against it, seen from a stop.
+struct Sides {
+    sites: [Site; 2],
+    /// Where the pieces begin and end.
+    feet: [[Foot; 2]; 2],
+    /// Its ends and the radii there.
+    ends: [Point; 2],
+    radii: [f64; 2],
+    id: u32,
+    stop: u32,
+}
+
+/// Signed distance and unit normal to a carrier, see [`Site::carrier_distance`].
+type Below = (f64, Vector);
+
+/// A place on its way to a crossing.
+struct Approach {
+    center: Point,
+    below: [Below; 2],
+    /// Whether another step would not help.
+    done: bool,
+}
 
 /// Round-off of the distance to an element in the unit frame: eight roundings of numbers up to 1.
 const RESIDUAL: f64 = 8.0 * f64::EPSILON;
 
 impl Tracer<'_> {
-    /// Where on an edge the radius is `d`: the same place for both sides.
-    pub fn crossing(&self, edge: u32) -> Point {
-        let e = self.edge(edge);
-        let [a, b] = e.pieces.map(|p| self.piece(p).piece);
-        if let Some(c) = self.between_vertices(e, [&a, &b]).or_else(|| self.by_newton(e, [&a, &b])) {
-            return c;
+    /// Where the level crosses the edges of some stops: the same places for their other sides.
+    pub fn entries(&self, stops: &[u32]) -> Vec<Entry> {
+        let mut entries = Vec::with_capacity(stops.len());
+        let (mut sides, mut approaches) = (Vec::new(), Vec::new());
+        for stops in stops.chunks(AT_A_TIME) {
+            sides.clear();
+            sides.extend(stops.iter().map(|&at| self.sides(at)));
+            approaches.clear();
+            approaches.extend(sides.iter().map(|sides| self.begun(sides, self.start(sides))));
+            let mut at_work = true;
+            while at_work {
+                at_work = false;
+                for (sides, approach) in sides.iter().zip(&mut approaches).filter(|(_, a)| !a.done) {
+                    self.step(sides, approach);
+                    at_work |= !approach.done;
+                }
+            }
+            entries.extend(sides.iter().zip(&approaches).map(|(s, a)| self.entry(s, a)));
         }
-        let extent = |p: &Piece| p.from.point.distance(p.to.point);
-        let swap = extent(&b) > extent(&a);
-        let (along, across) = if swap { (&b, &a) } else { (&a, &b) };
-        let radius_at = |end: usize| self.mat.graph.disks[e.disks[end] as usize].radius;
-        let falls = (radius_at(0) > radius_at(1)) != swap;
+        entries
+    }
+
+    fn entry(&self, sides: &Sides, approach: &Approach) -> Entry {
+        let found = self.between_vertices(sides).or_else(|| self.by_newton(sides, approach));
+        let Crossing { center, normals } = found.unwrap_or_else(|| self.by_halving(sides));
+        // The radius grows along the piece that enters.
+        let inward = usize::from(sides.radii[0] > sides.radii[1]);
+        let outward = 1 - inward;
+        let turn = |side: usize, from: Vector, to: Vector| {
+            if sides.sites[side].is_straight() { 0.0 } else { from.angle_to(to) }
+        };
+        Entry {
+            stop: sides.stop,
+            edge: sides.id,
+            center,
+            entering: turn(inward, normals[inward], sides.feet[inward][1].normal),
+            leaving: turn(outward, sides.feet[outward][0].normal, normals[outward]),
+        }
+    }
+
+    fn sides(&self, at: u32) -> Sides {
+        let stop = self.stop(at);
+        let &Way { across, backward, .. } = self.way(at);
+        let stops = if backward { [across, at] } else { [at, across] };
+        let feet = stops.map(|s| [self.stop(s).foot, self.course.end(&self.mat.sites, s)]);
+        let radii = [stops[0], stops[0] + 1].map(|s| self.course.radii[s as usize]);
+        let ends = [stops[0], stops[0] + 1].map(|s| self.mat.graph.disks[self.stop(s).disk as usize].center);
+        Sides { sites: stops.map(|s| *self.site(self.stop(s))), feet, ends, radii, id: stop.edge, stop: at }
+    }
+
+    /// The crossing by halving, which does not fail.
+    fn by_halving(&self, sides: &Sides) -> Crossing {
+        let [a, b] = self.mat.graph.edges[sides.id as usize].pieces;
+        let [a, b] = [a, b].map(|p| &self.mat.graph.pieces[p as usize].piece);
+        let extent = |[from, to]: [Foot; 2]| from.point.distance(to.point);
+        let swap = extent(sides.feet[1]) > extent(sides.feet[0]);
+        let (along, across) = if swap { (b, a) } else { (a, b) };
+        let falls = (sides.radii[0] > sides.radii[1]) != swap;
         let track = Track::of(&self.mat.sites, along);
         let radius = |t: f64| track.reach(&self.mat.sites, across, &track.at(t)).0;
         let sign = if falls { 1.0 } else { -1.0 };
@@ -36,79 +126,108 @@ impl Tracer<'_> {
             sign * if radius(t).is_finite() { radius(t) - self.d } else { self.d }
         });
         // The place at this distance from the one side is exact; the other's is made so as well.
-        let start = track.at(t).center(self.d);
-        self.polished(e, [self.site(&a), self.site(&b)], start)
+        let mut approach = self.begun(sides, track.at(t).center(self.d));
+        while !approach.done {
+            self.step(sides, &mut approach);
+        }
+        approach.crossing()
     }
 
     /// The crossing between two vertices, on the line halfway between them. They may be the sides of a
     /// hair-thin neck, seen from afar in nearly one direction, which tells nothing of the place across it.
-    fn between_vertices(&self, edge: &GraphEdge, pieces: [&Piece; 2]) -> Option<Point> {
-        let sites = pieces.map(|p| self.site(p));
-        if !sites.iter().all(|s| s.is_vertex) {
+    fn between_vertices(&self, sides: &Sides) -> Option<Crossing> {
+        if !sides.sites.iter().all(|s| s.is_vertex) {
             return None;
         }
-        let [v, w] = sites.map(|s| s.start.point);
+        let [v, w] = [0, 1].map(|i: usize| sides.sites[i].start.point);
         let half = 0.5 * v.distance(w);
         let away = (w - v).left() * (((self.d - half) * (self.d + half)).max(0.0).sqrt() / (2.0 * half));
-        let [a, b] = edge.disks.map(|d| &self.mat.graph.disks[d as usize]);
-        let toward = (if a.radius > b.radius { a } else { b }).center - v.midpoint(w);
+        let toward = sides.ends[usize::from(sides.radii[0] <= sides.radii[1])] - v.midpoint(w);
         let c = v.midpoint(w) + if toward.dot(away) < 0.0 { -away } else { away };
-        c.is_finite().then_some(c)
+        let normals = [0, 1].map(|i: usize| sides.sites[i].carrier_distance(c).1);
+        c.is_finite().then_some(Crossing { center: c, normals })
     }
 
-    /// The crossing by Newton's method, if it is certain to be that.
-    fn by_newton(&self, edge: &GraphEdge, pieces: [&Piece; 2]) -> Option<Point> {
-        let [from, to] = edge.disks.map(|d| &self.mat.graph.disks[d as usize]);
-        let share = (self.d - from.radius) / (to.radius - from.radius);
-        let sites = pieces.map(|p| self.site(p));
-        let c = self.polished(edge, sites, from.center + (to.center - from.center) * share);
-        let is_on = |(piece, site): (&Piece, &Site)| {
-            let (distance, normal) = site.carrier_distance(c);
-            (distance - self.d).abs() <= RESIDUAL && spans(piece, site, c - normal * distance, normal)
+    /// The crossing that Newton's method led to, if it is certain to be that.
+    fn by_newton(&self, sides: &Sides, approach: &Approach) -> Option<Crossing> {
+        let c = approach.center;
+        let is_on = |i: usize| {
+            let (distance, normal) = approach.below[i];
+            (distance - self.d).abs() <= RESIDUAL
+                && spans(sides.feet[i], &sides.sites[i], c - normal * distance, normal)
         };
-        pieces.into_iter().zip(sites).all(is_on).then_some(c)
+        (is_on(0) && is_on(1)).then(|| approach.crossing())
+    }
+
+    /// Where on a straight edge the radius would be `d` if it were steady.
+    fn start(&self, sides: &Sides) -> Point {
+        let ([from, to], [here, there]) = (sides.ends, sides.radii);
+        from + (to - from) * ((self.d - here) / (there - here))
     }
 
     /// Whether a place can lie on an edge, but for round-off. The edge turns by a quarter at most, so it
     /// is nowhere farther from one end than the other end is; and `s` beyond the end of a wall the
     /// distance to it is no more than `s^2 / 2d` larger.
-    fn may_hold(&self, edge: &GraphEdge, c: Point) -> bool {
-        let ends = edge.disks.map(|d| self.mat.graph.disks[d as usize].center);
-        let longest = ends[0].distance(ends[1]) + (2.0 * self.d * self.mat.graph.error).sqrt();
-        ends.iter().all(|end| end.distance(c) <= longest)
+    fn may_hold(&self, sides: &Sides, c: Point) -> bool {
+        let [a, b] = sides.ends;
+        let longest = a.distance(b) + (2.0 * self.d * self.mat.graph.error).sqrt();
+        a.distance(c) <= longest && b.distance(c) <= longest
     }
 
-    /// Newton's step for a place at distance `d` from two carriers, while it helps. Between walls that
-    /// are parallel but for round-off it may lead anywhere along them, and must not leave the edge.
-    fn polished(&self, edge: &GraphEdge, sites: [&Site; 2], mut c: Point) -> Point {
-        let residuals = |c: Point| sites.map(|s| s.carrier_distance(c)).map(|(s, n)| (self.d - s, n));
-        let worst = |r: &[(f64, Vector); 2]| r[0].0.abs().max(r[1].0.abs());
-        let mut now = residuals(c);
-        while worst(&now) > f64::EPSILON * self.d {
-            let [(e0, n0), (e1, n1)] = now;
-            let det = n0.cross(n1);
-            let step = vector((e0 * n1.y - e1 * n0.y) / det, (e1 * n0.x - e0 * n1.x) / det);
-            let mut next = c + step;
-            if step.length_squared() > self.d * worst(&now) {
-                // A step so long, between circles that hardly cross, leads away from both by more than they
-                // are off: back to one of them.
-                let (distance, normal) = sites[0].carrier_distance(next);
-                next += normal * (self.d - distance);
-            }
-            let after = residuals(next);
-            let converges = worst(&after) < 0.5 * worst(&now) && self.may_hold(edge, next);
-            if !converges {
-                break;
-            }
-            (c, now) = (next, after);
+    /// Begins Newton's method.
+    fn begun(&self, sides: &Sides, start: Point) -> Approach {
+        let below = sides.below(start);
+        Approach { center: start, below, done: self.worst(&below) <= f64::EPSILON * self.d }
+    }
+
+    /// How far a place is off.
+    #[inline]
+    fn worst(&self, below: &[Below; 2]) -> f64 {
+        (self.d - below[0].0).abs().max((self.d - below[1].0).abs())
+    }
+
+    /// Newton's step for a place at distance `d` from two carriers, if it helps. Between walls that are
+    /// parallel but for round-off it may lead anywhere along them, and must not leave the edge.
+    #[inline]
+    fn step(&self, sides: &Sides, approach: &mut Approach) {
+        let [(s0, n0), (s1, n1)] = approach.below;
+        let [e0, e1] = [self.d - s0, self.d - s1];
+        let worst = e0.abs().max(e1.abs());
+        let det = n0.cross(n1);
+        let step = vector((e0 * n1.y - e1 * n0.y) / det, (e1 * n0.x - e0 * n1.x) / det);
+        let mut next = approach.center + step;
+        if step.length_squared() > self.d * worst {
+            // A step so long, between circles that hardly cross, leads away from both by more than they
+            // are off: back to one of them.
+            let (distance, normal) = sides.sites[0].carrier_distance(next);
+            next += normal * (self.d - distance);
         }
-        c
+        let below = sides.below(next);
+        let now = self.worst(&below);
+        let converges = now < 0.5 * worst && self.may_hold(sides, next);
+        if converges {
+            (approach.center, approach.below) = (next, below);
+        }
+        approach.done = !converges || now <= f64::EPSILON * self.d;
+    }
+}
+
+impl Sides {
+    /// What is below a place on either side.
+    #[inline]
+    fn below(&self, c: Point) -> [Below; 2] {
+        [self.sites[0].carrier_distance(c), self.sites[1].carrier_distance(c)]
+    }
+}
+
+impl Approach {
+    fn crossing(&self) -> Crossing {
+        Crossing { center: self.center, normals: self.below.map(|b| b.1) }
     }
 }
 
 /// Whether a foot with its normal lies between the ends of a piece.
-fn spans(piece: &Piece, site: &Site, foot: Point, normal: Vector) -> bool {
-    let (from, to) = (&piece.from, &piece.to);
+fn spans([from, to]: [Foot; 2], site: &Site, foot: Point, normal: Vector) -> bool {
     if site.is_vertex {
         // The normals round a reflex vertex turn clockwise.
         return from.normal.cross(normal) < 0.0 && normal.cross(to.normal) < 0.0;

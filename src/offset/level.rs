@@ -32,40 +32,44 @@ impl Mat {
     /// the distance is `d` (to round-off) and no area remains. Empty when nothing is that far away;
     /// the boundary itself is not a level set, so `d` must be above 0 to give any.
     pub fn level(&self, d: f64) -> Level {
-        self.level_of(d, |_| true)
+        self.level_of(d, None)
     }
 
     /// The level set at distance `d` without the loops that follow one loop of the boundary.
     pub(super) fn level_beside(&self, d: f64, loop_index: u32) -> Level {
-        self.level_of(d, |walk| {
-            walk.iter().all(|s| self.sites[s.site as usize].source.loop_index != loop_index)
-        })
+        self.level_of(d, Some(loop_index))
     }
 
-    fn level_of(&self, d: f64, wanted: impl Fn(&[Stretch]) -> bool) -> Level {
+    fn level_of(&self, d: f64, unwanted: Option<u32>) -> Level {
         let mut level = Level { distance: d, ..Level::default() };
         let unit = self.frame.length_in(d);
         if !(unit > 0.0 && unit <= 1.0) {
             return level;
         }
         let tracer = Tracer::new(self, unit);
-        let walks = tracer.walks();
-        let walks = walks.iter().filter(|walk| wanted(walk));
-        level.loops = walks.filter_map(|walk| tracer.offset_loop(walk)).collect();
+        level.loops = tracer.walks(|walk| {
+            let follows = |loop_index| walk.iter().any(|s| tracer.loop_index(s) == loop_index);
+            if unwanted.is_some_and(follows) { None } else { tracer.offset_loop(walk) }
+        });
         level.ridges = tracer.ridges().into_iter().map(|ridge| ridge.spline).collect();
         level
     }
 }
 
 impl Tracer<'_> {
+    /// Index of the loop of the boundary that a stretch lies on.
+    fn loop_index(&self, stretch: &Stretch) -> u32 {
+        self.site(self.stop(stretch.first)).source.loop_index
+    }
+
     /// The offset of a walk, in job units; `None` if it is as short as round-off.
     fn offset_loop(&self, walk: &[Stretch]) -> Option<ArcSpline> {
         let mut vertices: Vec<Vertex> = Vec::with_capacity(walk.len());
-        for (i, stretch) in walk.iter().enumerate() {
-            let end = walk[(i + 1) % walk.len()].start;
+        let ends = walk[1..].iter().chain(&walk[..1]).map(|next| next.start);
+        for (stretch, end) in walk.iter().zip(ends) {
             // An element as short as round-off has no direction; its neighbors meet without it.
             if stretch.start.distance(end) > self.mat.graph.error {
-                let bulge = (0.25 * stretch.turn).tan();
+                let bulge = if stretch.turn == 0.0 { 0.0 } else { (0.25 * stretch.turn).tan() };
                 vertices.push(Vertex { point: self.mat.frame.leave(stretch.start), bulge });
             }
         }

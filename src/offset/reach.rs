@@ -1,10 +1,11 @@
 //! What a round tool can reach.
 
+use super::crossing::Entry;
 use super::ridge::Ridge;
 use super::trace::{Stretch, Tracer};
 use super::united::{Facing, overlap};
 use crate::geom::{ArcSpline, Element, Point, Vector, Vertex};
-use crate::mat::{GraphEdge, Mat, Sets};
+use crate::mat::{Mat, Sets};
 use std::f64::consts::{PI, TAU};
 
 impl Mat {
@@ -20,7 +21,7 @@ impl Mat {
             return whole;
         }
         let tracer = Tracer::new(self, unit);
-        let loops: f64 = tracer.walks().iter().map(|walk| tracer.outline(walk).area()).sum();
+        let loops: f64 = tracer.walks(|walk| Some(tracer.outline(walk).area())).iter().sum();
         let scale = self.frame.length_out(1.0);
         let overlap = tracer.overlap();
         let ridges: f64 = tracer.ridges().iter().map(|ridge| ridge_area(ridge, radius)).sum();
@@ -54,15 +55,16 @@ impl Tracer<'_> {
     /// of the boundary, joined by arcs of the disk about the crossings.
     fn outline(&self, walk: &[Stretch]) -> ArcSpline {
         let mut vertices = Vec::with_capacity(2 * walk.len());
-        for (i, stretch) in walk.iter().enumerate() {
-            let next = &walk[(i + 1) % walk.len()];
-            let site = &self.mat.sites[stretch.site as usize];
-            if !site.is_vertex {
-                vertices.push(Vertex { point: stretch.from.point, bulge: (0.25 * stretch.turn).tan() });
+        let nexts = walk[1..].iter().chain(&walk[..1]);
+        for (stretch, next) in walk.iter().zip(nexts) {
+            if !self.site(self.stop(stretch.last)).is_vertex {
+                let point = self.from(stretch).point;
+                vertices.push(Vertex { point, bulge: (0.25 * stretch.turn).tan() });
             }
             if next.at_crossing {
-                let turn = facing_turn(stretch.to.normal, next.from.normal);
-                vertices.push(Vertex { point: stretch.to.point, bulge: (0.25 * turn).tan() });
+                let to = self.to(stretch, next);
+                let turn = facing_turn(to.normal, self.from(next).normal);
+                vertices.push(Vertex { point: to.point, bulge: (0.25 * turn).tan() });
             }
         }
         ArcSpline { vertices, closed: true }
@@ -72,18 +74,14 @@ impl Tracer<'_> {
     fn overlap(&self) -> f64 {
         let mut place_of: std::collections::BTreeMap<u32, Vec<Facing>> = std::collections::BTreeMap::new();
         let outside = self.outside_components();
-        for &edge in &self.edges {
-            let GraphEdge { disks, pieces } = self.mat.graph.edges[edge as usize];
-            let (out, [leaving, entering]) = match disks.map(|v| self.is_inside(v)) {
-                [false, true] => (disks[0], [pieces[1], pieces[0]]),
-                [true, false] => (disks[1], pieces),
-                _ => continue,
-            };
-            let center = self.crossing(edge);
-            let normal = |p: u32| self.foot_below(&self.mat.graph.pieces[p as usize].piece, center).normal;
-            let (to, from) = (normal(leaving), normal(entering));
+        let mut entries: Vec<&Entry> = self.entries.iter().collect();
+        entries.sort_unstable_by_key(|entry| entry.edge);
+        for &Entry { stop, center, .. } in entries {
+            let entering = self.stop(stop);
+            let leaving = self.stop(self.way(stop).across);
+            let [to, from] = [leaving, entering].map(|stop| self.foot_below(stop, center).normal);
             let arc = Facing { center, from: (-to.y).atan2(-to.x), sweep: facing_turn(to, from) };
-            place_of.entry(outside[out as usize]).or_default().push(arc);
+            place_of.entry(outside[entering.disk as usize]).or_default().push(arc);
         }
         place_of.values().map(|arcs| overlap(arcs, self.d, self.mat.graph.error)).sum()
     }

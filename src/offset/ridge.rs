@@ -22,14 +22,14 @@ struct Way {
 
 impl Tracer<'_> {
     fn is_at(&self, vertex: u32) -> bool {
-        (self.mat.graph.disks[vertex as usize].radius - self.d).abs() <= self.mat.graph.error
+        self.is_equal(self.mat.graph.disks[vertex as usize].radius)
     }
 
     /// The ridges: paths between their branchings and ends, rings, single places.
     pub fn ridges(&self) -> Vec<Ridge> {
         let mut ways: BTreeMap<u32, Vec<Way>> = BTreeMap::new();
         let mut beside: Vec<u32> = Vec::new();
-        for &edge in &self.edges {
+        for &edge in &self.edges_at {
             let [a, b] = self.mat.graph.edges[edge as usize].disks;
             match [a, b].map(|v| self.is_at(v)) {
                 [true, true] => {

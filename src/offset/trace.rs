@@ -1,16 +1,17 @@
 //! Walking around what lies farther from the boundary than a distance.
 
+use super::crossing::Entry;
 use crate::geom::Point;
-use crate::mat::{BoundaryPiece, Foot, GraphEdge, Mat, NONE, Piece, Site};
+use crate::mat::{After, Course, Foot, Mat, NONE, Ring, Site, Stop, Way};
 
-/// A stretch of the boundary whose offset is part of the level set, within one site.
+/// A stretch of the boundary whose offset is part of the level set, within one element or vertex.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stretch {
-    pub site: u32,
-    /// Angle by which the normal turns from `from` to `to`, counter-clockwise positive.
+    /// The stops of its first and last piece.
+    pub first: u32,
+    pub last: u32,
+    /// Angle by which the normal turns along it, counter-clockwise positive.
     pub turn: f64,
-    pub from: Foot,
-    pub to: Foot,
     /// Where its offset begins.
     pub start: Point,
     /// Whether it begins on the axis, at a crossing with another stretch.
@@ -21,158 +22,189 @@ pub(super) struct Stretch {
 pub(super) struct Tracer<'a> {
     pub mat: &'a Mat,
     pub d: f64,
-    /// The edges whose radii reach to `d`.
-    pub edges: Vec<u32>,
+    pub course: &'a Course,
+    /// Where the level goes into the inside, in the order of the boundary.
+    pub entries: Vec<Entry>,
+    /// The numbers of entries by their stops.
+    ranks: Ranks,
+    /// The edges with an end that is as far away as `d`, in order of id.
+    pub edges_at: Vec<u32>,
 }
 
 impl<'a> Tracer<'a> {
     pub fn new(mat: &'a Mat, d: f64) -> Tracer<'a> {
-        Tracer { mat, d, edges: mat.radii().edges_at(d) }
+        let course = &mat.radii().course;
+        let (mut stops, mut edges_at) = (Vec::new(), Vec::new());
+        let is_piece = |at: u32| course.ways[at as usize].has_edge();
+        let rises = |at| stops.extend(is_piece(at).then_some(at));
+        let equals = |at| edges_at.extend(is_piece(at).then(|| course.stops[at as usize].edge));
+        mat.radii().search(d, rises, equals);
+        edges_at.sort_unstable();
+        edges_at.dedup();
+        let ranks = Ranks::of(&stops);
+        let mut tracer = Tracer { mat, d, course, entries: Vec::new(), ranks, edges_at };
+        tracer.entries = tracer.entries(&stops);
+        tracer
+    }
+
+    /// Whether a radius is larger than `d` by more than round-off.
+    #[inline]
+    fn is_larger(&self, radius: f64) -> bool {
+        radius > self.d + self.mat.graph.error
+    }
+
+    /// Whether a radius is `d` to round-off.
+    #[inline]
+    pub fn is_equal(&self, radius: f64) -> bool {
+        (radius - self.d).abs() <= self.mat.graph.error
     }
 
     /// Whether more than round-off of the pocket is farther away than `d` at a vertex.
     pub fn is_inside(&self, vertex: u32) -> bool {
-        self.mat.graph.disks[vertex as usize].radius > self.d + self.mat.graph.error
+        self.is_larger(self.mat.graph.disks[vertex as usize].radius)
     }
 
-    pub(super) fn edge(&self, id: u32) -> &GraphEdge {
-        &self.mat.graph.edges[id as usize]
+    #[inline]
+    pub fn stop(&self, at: u32) -> &'a Stop {
+        &self.course.stops[at as usize]
     }
 
-    pub(super) fn piece(&self, id: u32) -> &BoundaryPiece {
-        &self.mat.graph.pieces[id as usize]
+    #[inline]
+    pub fn way(&self, at: u32) -> &'a Way {
+        &self.course.ways[at as usize]
     }
 
-    /// Which of an edge's pieces runs into the inside, if the level crosses the edge.
-    fn entering(&self, edge: u32) -> Option<u32> {
-        let e = self.edge(edge);
-        match e.disks.map(|d| self.is_inside(d)) {
-            [false, true] => Some(e.pieces[0]),
-            [true, false] => Some(e.pieces[1]),
-            _ => None,
+    #[inline]
+    pub fn site(&self, stop: &Stop) -> &'a Site {
+        &self.mat.sites[stop.site as usize]
+    }
+
+    /// What is made of each closed walk, in the order of the rings that are inside all along, then of the
+    /// ids of the first edges that walks cross.
+    pub fn walks<T>(&self, mut make: impl FnMut(&[Stretch]) -> Option<T>) -> Vec<T> {
+        let mut walk = Vec::new();
+        let mut made = Vec::new();
+        for ring in self.course.rings.iter().filter(|ring| self.is_larger(ring.least)) {
+            walk.clear();
+            self.whole_ring(ring, &mut walk);
+            made.extend(make(&walk));
         }
-    }
-
-    /// All closed walks.
-    pub fn walks(&self) -> Vec<Vec<Stretch>> {
-        let mut walks = Vec::new();
-        for &(first, least) in &self.mat.radii().rings {
-            if least > self.d + self.mat.graph.error {
-                walks.push(self.whole_ring(first));
+        let mut around = Vec::new();
+        let mut done = vec![false; self.entries.len()];
+        for first in 0..self.entries.len() {
+            if !done[first] {
+                walk.clear();
+                let first_edge = self.walk_from(first, &mut done, &mut walk);
+                around.extend(make(&walk).map(|made| (first_edge, made)));
             }
         }
-        let mut done = Marks::up_to(self.edges.last().copied());
-        for &edge in &self.edges {
-            if let Some(entering) = self.entering(edge)
-                && !done.contains(&edge)
-            {
-                walks.push(self.walk_from(entering, &mut done));
-            }
-        }
-        walks
+        around.sort_unstable_by_key(|&(edge, _)| edge);
+        made.extend(around.into_iter().map(|(_, made)| made));
+        made
     }
 
     /// A ring of the boundary that is inside all along.
-    fn whole_ring(&self, first: u32) -> Vec<Stretch> {
-        // Begin where a site does, so that no stretch is cut.
-        let mut start = first;
-        while self.piece(start).piece.site == self.piece(self.piece(start).next).piece.site {
-            start = self.piece(start).next;
-            if start == first {
-                break;
-            }
+    fn whole_ring(&self, ring: &Ring, walk: &mut Vec<Stretch>) {
+        for at in ring.stops.clone() {
+            self.add(walk, at, self.way(at).turn);
         }
-        start = self.piece(start).next;
-        let mut walk = Vec::new();
-        let mut at = start;
+    }
+
+    /// The walk that begins with an entry, turned so that it begins at the crossed edge of the lowest id,
+    /// which is returned.
+    fn walk_from(&self, first: usize, done: &mut [bool], walk: &mut Vec<Stretch>) -> u32 {
+        let mut at_entry = first;
+        let (mut lowest, mut begin) = (NONE, 0);
         loop {
-            let piece = &self.piece(at).piece;
-            self.add(&mut walk, piece.site, piece.from, piece.to, None);
-            at = self.piece(at).next;
-            if at == start {
-                return walk;
+            done[at_entry] = true;
+            let Entry { stop, edge, center: start, entering: turn, .. } = self.entries[at_entry];
+            if edge < lowest {
+                (lowest, begin) = (edge, walk.len());
+            }
+            walk.push(Stretch { first: stop, last: stop, turn, start, at_crossing: true });
+            // Along the boundary until the level crosses an edge again, going out.
+            let mut at = self.following(stop);
+            while self.is_larger(self.course.radii[at as usize + 1]) {
+                self.add(walk, at, self.way(at).turn);
+                at = self.following(at);
+            }
+            at_entry = self.ranks.rank(self.way(at).across);
+            self.add(walk, at, self.entries[at_entry].leaving);
+            if at_entry == first {
+                walk.rotate_left(begin);
+                return lowest;
             }
         }
     }
 
-    /// The walk that begins where the level crosses the edge of `first` into the inside.
-    fn walk_from(&self, first: u32, done: &mut Marks) -> Vec<Stretch> {
-        let mut walk = Vec::new();
-        let mut entering = first;
-        let mut center = self.crossing(self.piece(first).edge);
-        loop {
-            done.insert(self.piece(entering).edge);
-            let piece = self.piece(entering).piece;
-            let foot = self.foot_below(&piece, center);
-            self.add(&mut walk, piece.site, foot, piece.to, Some(center));
-            let mut at = self.piece(entering).next;
-            // Along the boundary until the level crosses an edge again, going out.
-            loop {
-                let BoundaryPiece { piece, next, edge } = *self.piece(at);
-                if edge != NONE && self.entering(edge).is_some() {
-                    center = self.crossing(edge);
-                    let foot = self.foot_below(&piece, center);
-                    self.add(&mut walk, piece.site, piece.from, foot, None);
-                    let pieces = self.edge(edge).pieces;
-                    entering = if pieces[0] == at { pieces[1] } else { pieces[0] };
-                    break;
-                }
-                self.add(&mut walk, piece.site, piece.from, piece.to, None);
-                at = next;
+    /// The stop that follows on the boundary.
+    #[inline]
+    fn following(&self, at: u32) -> u32 {
+        let next = self.way(at + 1);
+        if next.is_end { next.across } else { at + 1 }
+    }
+
+    /// Adds a piece or the beginning of one, as one stretch with the last if that is on the same site or arc.
+    #[inline]
+    fn add(&self, walk: &mut Vec<Stretch>, at: u32, turn: f64) {
+        if let Some(last) = walk.last_mut() {
+            let same = match self.way(at).after {
+                After::SameSite => true,
+                After::SameSource => (last.turn + turn).abs() <= std::f64::consts::PI,
+                After::Itself => false,
+            };
+            if same {
+                (last.last, last.turn) = (at, last.turn + turn);
+                return;
             }
-            if entering == first {
-                return walk;
-            }
+        }
+        let foot = self.stop(at).foot;
+        let start = foot.point + foot.normal * self.d;
+        walk.push(Stretch { first: at, last: at, turn, start, at_crossing: false });
+    }
+
+    /// Where a stretch begins on the boundary.
+    pub fn from(&self, stretch: &Stretch) -> Foot {
+        let stop = self.stop(stretch.first);
+        if stretch.at_crossing { self.foot_below(stop, stretch.start) } else { stop.foot }
+    }
+
+    /// Where a stretch ends on the boundary, if another one follows.
+    pub fn to(&self, stretch: &Stretch, next: &Stretch) -> Foot {
+        if next.at_crossing {
+            self.foot_below(self.stop(stretch.last), next.start)
+        } else {
+            self.course.end(&self.mat.sites, stretch.last)
         }
     }
 
     /// Foot of a crossing on the carrier of a piece: where a neck is flat, the crossing may lie beyond
     /// the piece by the root of round-off, and its normal must be the one it really has.
-    pub fn foot_below(&self, piece: &Piece, crossing: Point) -> Foot {
-        let (distance, normal) = self.site(piece).carrier_distance(crossing);
+    pub fn foot_below(&self, stop: &Stop, crossing: Point) -> Foot {
+        let (distance, normal) = self.site(stop).carrier_distance(crossing);
         Foot { point: crossing - normal * distance, normal }
-    }
-
-    pub(super) fn site(&self, piece: &Piece) -> &Site {
-        &self.mat.sites[piece.site as usize]
-    }
-
-    /// Adds a stretch, as one with the last if that is on the same site or arc and no crossing lies
-    /// between them.
-    fn add(&self, walk: &mut Vec<Stretch>, site: u32, from: Foot, to: Foot, crossing: Option<Point>) {
-        let s = &self.mat.sites[site as usize];
-        let straight = s.curvature == 0.0 && !s.is_vertex;
-        let turn = if straight { 0.0 } else { from.normal.angle_to(to.normal) };
-        if let (None, Some(last)) = (crossing, walk.last_mut()) {
-            let other = &self.mat.sites[last.site as usize];
-            let same = last.site == site
-                || s.source == other.source && (last.turn + turn).abs() <= std::f64::consts::PI;
-            if same {
-                last.to = to;
-                last.turn += turn;
-                last.site = site;
-                return;
-            }
-        }
-        let start = crossing.unwrap_or(from.point + from.normal * self.d);
-        walk.push(Stretch { site, turn, from, to, start, at_crossing: crossing.is_some() });
     }
 }
 
-/// A set of ids, a bit for each.
-struct Marks(Vec<u64>);
+/// A set of ids, a bit for each, and how many come before each word of them.
+struct Ranks(Vec<(u64, u32)>);
 
-impl Marks {
-    /// Empty, for ids up to a largest one.
-    fn up_to(largest: Option<u32>) -> Marks {
-        Marks(vec![0; largest.map_or(0, |id| id as usize / 64 + 1)])
+impl Ranks {
+    /// Of growing ids.
+    fn of(ids: &[u32]) -> Ranks {
+        let mut words = vec![(0u64, 0u32); ids.last().map_or(0, |&id| id as usize / 64 + 1)];
+        ids.iter().for_each(|&id| words[id as usize / 64].0 |= 1 << (id % 64));
+        let mut count = 0;
+        for word in &mut words {
+            word.1 = count;
+            count += word.0.count_ones();
+        }
+        Ranks(words)
     }
 
-    fn insert(&mut self, id: u32) {
-        self.0[id as usize / 64] |= 1 << (id % 64);
-    }
-
-    fn contains(&self, id: &u32) -> bool {
-        self.0[*id as usize / 64] & (1 << (id % 64)) != 0
+    /// How many ids are lower than one.
+    fn rank(&self, id: u32) -> usize {
+        let (word, before) = self.0[id as usize / 64];
+        before as usize + (word & ((1 << (id % 64)) - 1)).count_ones() as usize
     }
 }
