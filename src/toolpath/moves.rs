@@ -70,6 +70,14 @@ impl Move {
             Move::Rapid { to } | Move::Feed { to, .. } | Move::Arc { to, .. } => *to,
         }
     }
+
+    /// The feed rate; `None` for a rapid.
+    pub const fn rate(&self) -> Option<f64> {
+        match self {
+            Move::Rapid { .. } => None,
+            Move::Feed { rate, .. } | Move::Arc { rate, .. } => Some(*rate),
+        }
+    }
 }
 
 impl From<[f64; 3]> for Point3 {

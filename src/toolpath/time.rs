@@ -25,36 +25,51 @@ struct Leg {
     rate: f64,
 }
 
+/// Feed moves that run on into each other.
+struct Run {
+    length: f64,
+    /// Time at their rates.
+    at_rates: f64,
+    first_rate: f64,
+    last: Leg,
+}
+
 /// Minutes of moves that begin where the tool is, if anywhere yet.
 pub(super) fn minutes(from: Option<Point3>, moves: &[Move], job: &Job) -> f64 {
     let acceleration = job.acceleration * SECONDS * SECONDS;
-    let (mut at, mut total, mut run) = (from, 0.0, Vec::new());
+    let (mut at, mut total, mut run) = (from, 0.0, None);
+    let time = |run: Option<Run>| run.map_or(0.0, |run| run.minutes(acceleration));
     for m in moves {
         let to = m.to();
         let from = at.replace(to).unwrap_or(to);
         let leg = leg(from, m, acceleration);
-        let goes_on = |last: &Leg, next: &Leg| turns_by(last.ends[1], next.ends[0]) <= CORNER;
-        if leg.as_ref().is_none_or(|next| run.last().is_some_and(|last| !goes_on(last, next))) {
-            total += of_run(&run, acceleration);
-            run.clear();
+        let goes_on = |run: &Run, next: &Leg| turns_by(run.last.ends[1], next.ends[0]) <= CORNER;
+        if leg.as_ref().is_none_or(|next| run.as_ref().is_some_and(|run| !goes_on(run, next))) {
+            total += time(run.take());
         }
         match leg {
-            Some(leg) => run.push(leg),
+            Some(leg) => run = Some(Run::on(run, leg)),
             None => total += rapid_minutes(from.distance(to), job),
         }
     }
-    total + of_run(&run, acceleration)
+    total + time(run)
 }
 
-fn of_run(run: &[Leg], acceleration: f64) -> f64 {
-    let (Some(first), Some(last)) = (run.first(), run.last()) else { return 0.0 };
-    let length: f64 = run.iter().map(|leg| leg.length).sum();
-    let at_rates: f64 = run.iter().map(|leg| leg.length / leg.rate).sum();
-    let [v, w] = [first.rate, last.rate];
-    if length >= 0.5 * (v * v + w * w) / acceleration {
-        at_rates + 0.5 * (v + w) / acceleration
-    } else {
-        at_rates.max(2.0 * (length / acceleration).sqrt())
+impl Run {
+    /// A run that goes on by a move, or begins with it.
+    fn on(run: Option<Run>, leg: Leg) -> Run {
+        let (length, at_rates, first_rate) =
+            run.map_or((0.0, 0.0, leg.rate), |run| (run.length, run.at_rates, run.first_rate));
+        Run { length: length + leg.length, at_rates: at_rates + leg.length / leg.rate, first_rate, last: leg }
+    }
+
+    fn minutes(&self, acceleration: f64) -> f64 {
+        let [v, w] = [self.first_rate, self.last.rate];
+        if self.length >= 0.5 * (v * v + w * w) / acceleration {
+            self.at_rates + 0.5 * (v + w) / acceleration
+        } else {
+            self.at_rates.max(2.0 * (self.length / acceleration).sqrt())
+        }
     }
 }
 

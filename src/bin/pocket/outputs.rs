@@ -7,6 +7,7 @@ use crate::plan::Plan;
 use medial::Error;
 use medial::io::atomic;
 use medial::io::gcode::{self, Setup, Stats};
+use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -96,13 +97,13 @@ impl Outputs {
     pub fn write(&self, plan: &Plan, setup: &Setup) -> Result<Option<Stats>, Failure> {
         let program = if self.has_program() { Some(gcode::write(&plan.path.moves, setup)?) } else { None };
         let text = program.as_ref().map_or("", |p| p.text.as_str());
-        let mut staged: Vec<(&Path, Vec<u8>)> = Vec::new();
+        let mut staged: Vec<(&Path, Cow<[u8]>)> = Vec::new();
         for (path, form) in &self.files {
             let bytes = match form {
-                Form::Gcode => text.as_bytes().to_vec(),
-                Form::Dxf => plan.drawing().map_err(|cause| cannot_write(path, cause))?,
-                Form::Svg => plan.picture().into_bytes(),
-                Form::Json => plan.document().to_json().into_bytes(),
+                Form::Gcode => text.as_bytes().into(),
+                Form::Dxf => plan.drawing().map_err(|cause| cannot_write(path, cause))?.into(),
+                Form::Svg => plan.picture().into_bytes().into(),
+                Form::Json => plan.document().to_json().into_bytes().into(),
             };
             staged.push((path, bytes));
         }

@@ -14,6 +14,7 @@
 mod arc;
 mod comment;
 mod number;
+mod parts;
 mod setup;
 mod write;
 

@@ -3,6 +3,7 @@
 use super::arc::{Fit, with_center, with_radius};
 use super::comment::{self, MAX_LINE};
 use super::number::{Grid, short};
+use super::parts::{LEAST_PART, in_parts};
 use super::setup::{ArcWords, Coolant, Setup};
 use crate::error::Error;
 use crate::geom::{Element, Point};
@@ -12,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
 /// Most lines of a program; no controller holds as many.
-const MAX_LINES: usize = 50_000_000;
+pub(super) const MAX_LINES: usize = 50_000_000;
 
 /// Line numbers go up by this and begin again after `LAST_NUMBER`.
 const NUMBER_STEP: usize = 10;
@@ -21,7 +22,7 @@ const NUMBER_STEP: usize = 10;
 const LAST_NUMBER: usize = 99_990;
 
 /// About how many bytes a line takes.
-const USUAL_LINE: usize = 24;
+pub(super) const USUAL_LINE: usize = 24;
 
 /// A program as text.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -60,27 +61,22 @@ pub struct Stats {
 /// a place in the plane, or when the program would be too long.
 pub fn write(moves: &[Move], setup: &Setup) -> Result<Written, Error> {
     setup.check()?;
-    let mut writer = Writer::new(setup);
-    writer.out.text.reserve(moves.len() * USUAL_LINE);
-    writer.header()?;
-    for m in moves {
-        match *m {
-            Move::Rapid { to } => writer.rapid(to)?,
-            Move::Feed { to, rate } => writer.feed(to, rate)?,
-            Move::Arc { to, center, ccw, rate } => writer.arc(to, center, ccw, rate)?,
-        }
-        writer.exact = Some(m.to());
-    }
-    writer.footer()?;
-    writer.out.stats.bytes = writer.out.text.len();
-    Ok(writer.out)
+    // Numbered lines depend on all before them.
+    let least = if setup.line_numbers { usize::MAX } else { LEAST_PART };
+    in_parts(moves, setup, rayon::current_num_threads(), least)
+}
+
+/// The program has too many lines.
+pub(super) fn too_long() -> Error {
+    let needed = MAX_LINES as u64 + 1;
+    Error::Effort { what: "the program", needed, limit: MAX_LINES as u64 }
 }
 
 /// The state of the controller and the text so far.
-struct Writer<'a> {
+pub(super) struct Writer<'a> {
     setup: &'a Setup,
     grid: Grid,
-    out: Written,
+    pub out: Written,
     /// Where the tool is, before rounding.
     exact: Option<Point3>,
     xy: Option<[i64; 2]>,
@@ -91,13 +87,37 @@ struct Writer<'a> {
 }
 
 impl<'a> Writer<'a> {
-    fn new(setup: &'a Setup) -> Writer<'a> {
+    pub fn new(setup: &'a Setup) -> Writer<'a> {
         let grid = Grid::new(setup.decimals);
         let (exact, xy, z, rate) = (None, None, None, None);
         Writer { setup, grid, out: Written::default(), exact, xy, z, rate, words: String::new() }
     }
 
-    fn header(&mut self) -> Result<(), Error> {
+    /// The writer of the moves from one on, before which a move cuts.
+    pub fn resumed(setup: &'a Setup, moves: &[Move], begin: usize) -> Result<Writer<'a>, Error> {
+        let mut writer = Writer::new(setup);
+        let last = &moves[begin - 1];
+        let at = last.to();
+        writer.exact = Some(at);
+        writer.xy = Some(writer.grid.round_point(at.xy())?);
+        writer.z = Some(writer.grid.round("z", at.z)?);
+        writer.rate = last.rate().map(|rate| (rate, short(rate)));
+        Ok(writer)
+    }
+
+    pub fn moves(&mut self, moves: &[Move]) -> Result<(), Error> {
+        for m in moves {
+            match *m {
+                Move::Rapid { to } => self.rapid(to)?,
+                Move::Feed { to, rate } => self.feed(to, rate)?,
+                Move::Arc { to, center, ccw, rate } => self.arc(to, center, ccw, rate)?,
+            }
+            self.exact = Some(m.to());
+        }
+        Ok(())
+    }
+
+    pub fn header(&mut self) -> Result<(), Error> {
         let setup = self.setup;
         for line in setup.comments.iter().flat_map(|c| comment::lines(c)) {
             self.line(&line)?;
@@ -120,7 +140,7 @@ impl<'a> Writer<'a> {
         self.rapid_z(self.grid.round("clearance", setup.top + setup.clearance)?)
     }
 
-    fn footer(&mut self) -> Result<(), Error> {
+    pub fn footer(&mut self) -> Result<(), Error> {
         let clear = self.grid.round("clearance", self.setup.top + self.setup.clearance)?;
         if self.z.is_some_and(|z| z < clear) {
             self.rapid_z(clear)?;
@@ -332,8 +352,7 @@ impl<'a> Writer<'a> {
 
     fn line(&mut self, words: &str) -> Result<(), Error> {
         if self.out.stats.text_lines >= MAX_LINES {
-            let needed = MAX_LINES as u64 + 1;
-            return Err(Error::Effort { what: "the program", needed, limit: MAX_LINES as u64 });
+            return Err(too_long());
         }
         let number = if words.starts_with('(') { String::new() } else { self.number() };
         let text = &mut self.out.text;
