@@ -59,7 +59,7 @@ impl Lamination {
     pub fn of(all: &Sites, shots: &[Shot], doubt: Doubt) -> Option<Lamination> {
         let contacts = contacts(&all.sites, shots);
         let (mut map, mut crossings) = Lamination::with(all, shots, contacts, doubt)?;
-        let mut contacts = (!crossings.is_empty()).then(|| map.contacts.clone()).unwrap_or_default();
+        let mut contacts = if crossings.is_empty() { Vec::new() } else { map.contacts.clone() };
         for _ in 0..ROUNDS {
             if !set_apart((&all.sites, shots), &mut contacts, &crossings, doubt.feet) {
                 break;
