@@ -7,7 +7,9 @@
 //! Chords of different maximal disks never cross, so chords that do cross in the row belong to one
 //! disk with more than two contacts, whose ties round-off has broken: they are united. That is the
 //! non-crossing closure of the partition of visits into chords, found with one stack in linear time,
-//! and no tolerance decides it. The result is a planar map by construction: its faces are simply
+//! and no tolerance decides it. Where the disks of chords to be united differ by more than round-off,
+//! it was the order of visits that round-off has changed, and the map is made again with contacts
+//! that are [set apart](super::apart). The result is a planar map by construction: its faces are simply
 //! connected, every piece of the boundary lies in exactly one of them, and V - E = 1 - holes holds
 //! for whatever is built in the faces. What round-off can still spoil are residuals, and those
 //! `Mat::check` measures.

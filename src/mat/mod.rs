@@ -8,9 +8,10 @@
 //! **Does not** prune: a small bump in the drawing is a small branch here.
 //!
 //! **Method**, the *contact lamination*: maximal disks at all joints of the boundary, one more for
-//! each hole (`sites`, `shot`); their chords cut the pocket into faces (`lamination`); a face
-//! of two pieces is an edge, larger ones are divided by branch disks (`face`); edges without length
-//! are contracted and the others split where the radius has an extremum (`graph`).
+//! each hole (`sites`, `shot`); their chords, which do not cross (`apart`), cut the pocket into faces
+//! (`lamination`); a face of two pieces is an edge, larger ones are divided by branch disks (`face`);
+//! edges without length are contracted and the others split where the radius has an extremum (`graph`).
+//! Levels follow the boundary in the order of memory (`circuit`).
 //!
 //! After Aichholzer, Aigner, Aurenhammer, Hackl, Juettler, Rabl: *Medial axis computation for planar
 //! free-form shapes*, Computer-Aided Design 41 (2009), whose recursion it unrolls.
@@ -20,9 +21,9 @@
 mod apart;
 mod bvh;
 mod check;
+mod circuit;
 mod conic;
 mod contacts;
-mod course;
 mod division;
 mod face;
 mod frame;
@@ -51,7 +52,7 @@ pub use check::Residuals;
 pub use transform::{Counts, Mat, Mismatch};
 pub use vertex::{AxisEdge, AxisVertex, Disk, Kind, SiteKind, SiteRef};
 
-pub(crate) use course::{After, Course, Ring, Stop, Way};
+pub(crate) use circuit::{After, Circuit, Ring, Stop, Way};
 pub(crate) use root::falling_root;
 pub(crate) use site::{Foot, NONE, Site};
 pub(crate) use track::Track;

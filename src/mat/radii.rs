@@ -1,6 +1,6 @@
 //! Where on the axis the radius takes a value, without looking at all of it.
 
-use super::course::Course;
+use super::circuit::Circuit;
 use super::graph::Graph;
 use super::kinds::Kinds;
 use super::site::Site;
@@ -9,7 +9,7 @@ use std::ops::Range;
 /// Index of the boundary and of peaks by radius.
 #[derive(Clone, Debug)]
 pub(crate) struct Radii {
-    pub course: Course,
+    pub circuit: Circuit,
     /// Least and greatest radius from the first stop of each block to that after its last one; then those
     /// of blocks of such blocks, up to one.
     blocks: Vec<Vec<[f64; 2]>>,
@@ -24,14 +24,14 @@ const BLOCK: usize = 16;
 
 impl Radii {
     pub fn of(sites: &[Site], graph: &Graph, kinds: &Kinds) -> Radii {
-        let course = Course::of(sites, graph);
+        let circuit = Circuit::of(sites, graph);
         let on_peak = |i: &u32| kinds.on_peak[*i as usize];
         let mut peaks: Vec<(f64, u32)> = (0..graph.disks.len() as u32)
             .filter(on_peak)
             .map(|i| (graph.disks[i as usize].radius, i))
             .collect();
         peaks.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        Radii { blocks: blocks(&course.radii), course, peaks, error: graph.error }
+        Radii { blocks: blocks(&circuit.radii), circuit, peaks, error: graph.error }
     }
 
     /// Shows the stops, in the order of the boundary, from which the radius comes to more than `d`, and those
@@ -80,7 +80,7 @@ impl<R: FnMut(u32), E: FnMut(u32)> Search<'_, R, E> {
     /// In one block of stops, a bit for each.
     fn stops(&mut self, block: usize) {
         let first = block * BLOCK;
-        let radii = &self.radii.course.radii[first..];
+        let radii = &self.radii.circuit.radii[first..];
         let radii = &radii[..radii.len().min(BLOCK + 1)];
         let (mut larger, mut equal) = (0u32, 0u32);
         for (i, &radius) in radii.iter().enumerate() {

@@ -105,8 +105,8 @@ impl Tracer<'_> {
         let stop = self.stop(at);
         let &Way { across, backward, .. } = self.way(at);
         let stops = if backward { [across, at] } else { [at, across] };
-        let feet = stops.map(|s| [self.stop(s).foot, self.course.end(&self.mat.sites, s)]);
-        let radii = [stops[0], stops[0] + 1].map(|s| self.course.radii[s as usize]);
+        let feet = stops.map(|s| [self.stop(s).foot, self.circuit.end(&self.mat.sites, s)]);
+        let radii = [stops[0], stops[0] + 1].map(|s| self.circuit.radii[s as usize]);
         let ends = [stops[0], stops[0] + 1].map(|s| self.mat.graph.disks[self.stop(s).disk as usize].center);
         Sides { sites: stops.map(|s| *self.site(self.stop(s))), feet, ends, radii, id: stop.edge, stop: at }
     }

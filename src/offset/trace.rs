@@ -2,7 +2,7 @@
 
 use super::crossing::Entry;
 use crate::geom::Point;
-use crate::mat::{After, Course, Foot, Mat, NONE, Ring, Site, Stop, Way};
+use crate::mat::{After, Circuit, Foot, Mat, NONE, Ring, Site, Stop, Way};
 
 /// A stretch of the boundary whose offset is part of the level set, within one element or vertex.
 #[derive(Clone, Copy, Debug)]
@@ -22,7 +22,7 @@ pub(super) struct Stretch {
 pub(super) struct Tracer<'a> {
     pub mat: &'a Mat,
     pub d: f64,
-    pub course: &'a Course,
+    pub circuit: &'a Circuit,
     /// Where the level goes into the inside, in the order of the boundary.
     pub entries: Vec<Entry>,
     /// The numbers of entries by their stops.
@@ -33,16 +33,16 @@ pub(super) struct Tracer<'a> {
 
 impl<'a> Tracer<'a> {
     pub fn new(mat: &'a Mat, d: f64) -> Tracer<'a> {
-        let course = &mat.radii().course;
+        let circuit = &mat.radii().circuit;
         let (mut stops, mut edges_at) = (Vec::new(), Vec::new());
-        let is_piece = |at: u32| course.ways[at as usize].has_edge();
+        let is_piece = |at: u32| circuit.ways[at as usize].has_edge();
         let rises = |at| stops.extend(is_piece(at).then_some(at));
-        let equals = |at| edges_at.extend(is_piece(at).then(|| course.stops[at as usize].edge));
+        let equals = |at| edges_at.extend(is_piece(at).then(|| circuit.stops[at as usize].edge));
         mat.radii().search(d, rises, equals);
         edges_at.sort_unstable();
         edges_at.dedup();
         let ranks = Ranks::of(&stops);
-        let mut tracer = Tracer { mat, d, course, entries: Vec::new(), ranks, edges_at };
+        let mut tracer = Tracer { mat, d, circuit, entries: Vec::new(), ranks, edges_at };
         tracer.entries = tracer.entries(&stops);
         tracer
     }
@@ -66,12 +66,12 @@ impl<'a> Tracer<'a> {
 
     #[inline]
     pub fn stop(&self, at: u32) -> &'a Stop {
-        &self.course.stops[at as usize]
+        &self.circuit.stops[at as usize]
     }
 
     #[inline]
     pub fn way(&self, at: u32) -> &'a Way {
-        &self.course.ways[at as usize]
+        &self.circuit.ways[at as usize]
     }
 
     #[inline]
@@ -84,7 +84,7 @@ impl<'a> Tracer<'a> {
     pub fn walks<T>(&self, mut make: impl FnMut(&[Stretch]) -> Option<T>) -> Vec<T> {
         let mut walk = Vec::new();
         let mut made = Vec::new();
-        for ring in self.course.rings.iter().filter(|ring| self.is_larger(ring.least)) {
+        for ring in self.circuit.rings.iter().filter(|ring| self.is_larger(ring.least)) {
             walk.clear();
             self.whole_ring(ring, &mut walk);
             made.extend(make(&walk));
@@ -124,7 +124,7 @@ impl<'a> Tracer<'a> {
             walk.push(Stretch { first: stop, last: stop, turn, start, at_crossing: true });
             // Along the boundary until the level crosses an edge again, going out.
             let mut at = self.following(stop);
-            while self.is_larger(self.course.radii[at as usize + 1]) {
+            while self.is_larger(self.circuit.radii[at as usize + 1]) {
                 self.add(walk, at, self.way(at).turn);
                 at = self.following(at);
             }
@@ -151,7 +151,7 @@ impl<'a> Tracer<'a> {
             let same = match self.way(at).after {
                 After::SameSite => true,
                 After::SameSource => (last.turn + turn).abs() <= std::f64::consts::PI,
-                After::Itself => false,
+                After::OtherSource => false,
             };
             if same {
                 (last.last, last.turn) = (at, last.turn + turn);
@@ -174,7 +174,7 @@ impl<'a> Tracer<'a> {
         if next.at_crossing {
             self.foot_below(self.stop(stretch.last), next.start)
         } else {
-            self.course.end(&self.mat.sites, stretch.last)
+            self.circuit.end(&self.mat.sites, stretch.last)
         }
     }
 

@@ -45,7 +45,7 @@ impl Way {
 /// What a piece has in common with the one before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum After {
-    Itself,
+    OtherSource,
     /// Another site of the same element or vertex of the drawing.
     SameSource,
     SameSite,
@@ -62,7 +62,7 @@ pub(crate) struct Ring {
 
 /// All stops.
 #[derive(Clone, Debug)]
-pub(crate) struct Course {
+pub(crate) struct Circuit {
     /// Ring by ring, each from the beginning of a site; and the stop at its end.
     pub stops: Vec<Stop>,
     pub ways: Vec<Way>,
@@ -72,15 +72,16 @@ pub(crate) struct Course {
     pub rings: Vec<Ring>,
 }
 
-impl Course {
-    pub fn of(sites: &[Site], graph: &Graph) -> Course {
-        let mut course = Course { stops: Vec::new(), ways: Vec::new(), radii: Vec::new(), rings: Vec::new() };
+impl Circuit {
+    pub fn of(sites: &[Site], graph: &Graph) -> Circuit {
+        let mut circuit =
+            Circuit { stops: Vec::new(), ways: Vec::new(), radii: Vec::new(), rings: Vec::new() };
         let mut stop_of = vec![NONE; graph.pieces.len()];
         let firsts = ring_firsts(graph);
         let count = graph.pieces.len() + firsts.len();
-        course.stops.reserve_exact(count);
-        course.ways.reserve_exact(count);
-        course.radii.reserve_exact(count);
+        circuit.stops.reserve_exact(count);
+        circuit.ways.reserve_exact(count);
+        circuit.radii.reserve_exact(count);
         let mut lone = graph.lone_disks().into_iter();
         let start = |first| {
             let start = site_start(graph, first);
@@ -91,14 +92,14 @@ impl Course {
         let mut starts: Vec<_> = (0usize..).zip(firsts.into_iter().map(start)).collect();
         // What is near is near in memory.
         starts.sort_by_cached_key(|&(_, [start, _])| hilbert(graph.pieces[start as usize].piece.from.point));
-        course.rings = vec![Ring { stops: 0..0, least: 0.0 }; starts.len()];
+        circuit.rings = vec![Ring { stops: 0..0, least: 0.0 }; starts.len()];
         for (ring, start) in starts {
-            course.rings[ring] = course.add_ring(sites, graph, start, &mut stop_of);
+            circuit.rings[ring] = circuit.add_ring(sites, graph, start, &mut stop_of);
         }
-        for way in course.ways.iter_mut().filter(|w| w.has_edge()) {
+        for way in circuit.ways.iter_mut().filter(|w| w.has_edge()) {
             way.across = stop_of[way.across as usize];
         }
-        course
+        circuit
     }
 
     /// The foot where the piece of a stop ends.
@@ -159,7 +160,7 @@ fn after(sites: &[Site], before: u32, site: u32) -> After {
     match sites.get(before as usize) {
         Some(_) if before == site => After::SameSite,
         Some(s) if s.source == sites[site as usize].source => After::SameSource,
-        _ => After::Itself,
+        _ => After::OtherSource,
     }
 }
 
