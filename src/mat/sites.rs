@@ -307,7 +307,10 @@ fn lend_directions(parts: &mut [Part], noise: f64) -> f64 {
             let cos = (1.0 - sine * sine).max(0.0).sqrt();
             parts[to].start.normal = parts[to].start.normal.rotated(cos, sine);
             parts[to].end.normal = parts[to].end.normal.rotated(cos, sine);
-            let bend = parts[from].curvature.abs() + parts[beside(to, forward)].curvature.abs();
+            // What is shorter still says nothing of how it may bend.
+            let longer =
+                |i: usize| if parts[i].chord > parts[to].chord { parts[i].curvature.abs() } else { 0.0 };
+            let bend = longer(from) + longer(beside(to, forward));
             parts[to].unseen = bend * parts[to].chord;
             parts[to].chord = parts[from].chord;
             largest = largest.max(sine.abs());

@@ -6,8 +6,9 @@
 //! **Method.** The radius is monotone along the edge, so there is one such place. Newton's method finds it
 //! in three or four steps from where a straight edge with a steady radius would have it; what it finds is
 //! taken if its feet lie on the pieces of the boundary that the edge stands for, as nothing else is as far
-//! from both. Otherwise, beside ends of edges and between walls nearly parallel, halving along the longer
-//! piece does not fail.
+//! from both. Otherwise it is tried once more from where a radius that grows evenly faster would have it,
+//! as beside necks, and where that fails, too, beside ends of edges and between walls nearly parallel,
+//! halving along the longer piece does not fail.
 
 use super::trace::Tracer;
 use crate::geom::{Point, Vector, vector};
@@ -85,6 +86,7 @@ impl Tracer<'_> {
 
     fn entry(&self, sides: &Sides, approach: &Approach) -> Entry {
         let found = self.between_vertices(sides).or_else(|| self.by_newton(sides, approach));
+        let found = found.or_else(|| self.by_newton(sides, &self.followed(sides, self.curved_start(sides))));
         let Crossing { center, normals } = found.unwrap_or_else(|| self.by_halving(sides));
         // The radius grows along the piece that enters.
         let inward = usize::from(sides.radii[0] > sides.radii[1]);
@@ -126,11 +128,7 @@ impl Tracer<'_> {
             sign * if radius(t).is_finite() { radius(t) - self.d } else { self.d }
         });
         // The place at this distance from the one side is exact; the other's is made so as well.
-        let mut approach = self.begun(sides, track.at(t).center(self.d));
-        while !approach.done {
-            self.step(sides, &mut approach);
-        }
-        approach.crossing()
+        self.followed(sides, track.at(t).center(self.d)).crossing()
     }
 
     /// The crossing between two vertices, on the line halfway between them. They may be the sides of a
@@ -165,6 +163,19 @@ impl Tracer<'_> {
         from + (to - from) * ((self.d - here) / (there - here))
     }
 
+    /// About where on a straight edge the radius is `d` if it grows as it does at the lower end, and evenly
+    /// faster or slower from there on: nearer where the radius is smallest, and slower to find.
+    fn curved_start(&self, sides: &Sides) -> Point {
+        let low = usize::from(sides.radii[0] > sides.radii[1]);
+        let (from, along) = (sides.ends[low], sides.ends[1 - low] - sides.ends[low]);
+        let [rise, whole] = [self.d, sides.radii[1 - low]].map(|r| r - sides.radii[low]);
+        // On either side the distance grows along the normal.
+        let normals = sides.feet[0][low].normal + sides.feet[1][1 - low].normal;
+        let growth = 0.5 * normals.dot(along);
+        let root = (growth * growth + 4.0 * (whole - growth) * rise).max(0.0).sqrt();
+        from + along * (2.0 * rise / (growth + root))
+    }
+
     /// Whether a place can lie on an edge, but for round-off. The edge turns by a quarter at most, so it
     /// is nowhere farther from one end than the other end is; and `s` beyond the end of a wall the
     /// distance to it is no more than `s^2 / 2d` larger.
@@ -178,6 +189,15 @@ impl Tracer<'_> {
     fn begun(&self, sides: &Sides, start: Point) -> Approach {
         let below = sides.below(start);
         Approach { center: start, below, done: self.worst(&below) <= f64::EPSILON * self.d }
+    }
+
+    /// Newton's method from a place to its end.
+    fn followed(&self, sides: &Sides, start: Point) -> Approach {
+        let mut approach = self.begun(sides, start);
+        while !approach.done {
+            self.step(sides, &mut approach);
+        }
+        approach
     }
 
     /// How far a place is off.
