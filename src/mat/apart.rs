@@ -11,6 +11,7 @@ use super::contacts::ContactItem;
 use super::shot::Shot;
 use super::site::{Foot, Site};
 use super::touch::Contact;
+use std::collections::HashMap;
 
 /// Another place for a contact, and how far that is from the first: less than nothing where either is a choice.
 struct Move {
@@ -19,15 +20,16 @@ struct Move {
     distance: f64,
 }
 
-/// For each pair of joints whose chords cross moves one of their contacts past the other chord, if one is within
-/// `reach` of that; answers whether there was any.
+/// Moves the contacts of disks that osculate whole arcs to where other disks touch these, on the side where their
+/// joint is, and for each pair of joints whose chords cross one of their contacts past the other chord, if one is
+/// within `reach` of that; answers whether there was any.
 pub(super) fn set_apart(
     (sites, shots): (&[Site], &[Shot]),
     contacts: &mut [ContactItem],
     crossings: &[[u32; 2]],
     reach: f64,
 ) -> bool {
-    let mut any = false;
+    let mut any = !crossings.is_empty() && whole_aside(contacts, shots);
     for &[a, b] in crossings {
         let moves =
             moves(sites, shots, contacts, [a, b]).into_iter().chain(moves(sites, shots, contacts, [b, a]));
@@ -38,6 +40,32 @@ pub(super) fn set_apart(
             contacts[contact] = ContactItem { site, position, foot, ..contacts[contact] };
             any = true;
         }
+    }
+    any
+}
+
+/// Moves those contacts at far ends of arcs that osculating disks have; answers whether there was any.
+fn whole_aside(contacts: &mut [ContactItem], shots: &[Shot]) -> bool {
+    let is_whole = |c: &ContactItem| shots[c.joint as usize].contact == Contact::Whole;
+    let mut others: HashMap<u32, [(f64, Foot); 2]> = HashMap::new();
+    for c in contacts.iter().filter(|c| !is_whole(c)) {
+        let [first, last] = others.entry(c.site).or_insert([(c.position, c.foot); 2]);
+        if c.position < first.0 {
+            *first = (c.position, c.foot);
+        }
+        if c.position > last.0 {
+            *last = (c.position, c.foot);
+        }
+    }
+    let mut any = false;
+    for c in contacts.iter_mut().filter(|c| is_whole(c)) {
+        let to = match (others.get(&c.site), c.position) {
+            (Some(&[(position, foot), _]), 1.0) => (position.next_down(), foot),
+            (Some(&[_, (position, foot)]), 0.0) => (position.next_up(), foot),
+            _ => continue,
+        };
+        (c.position, c.foot) = to;
+        any = true;
     }
     any
 }
