@@ -44,7 +44,8 @@ pub(super) fn set_apart(
     any
 }
 
-/// Moves those contacts at far ends of arcs that osculating disks have; answers whether there was any.
+/// Moves the contacts of osculating disks from the far ends of their arcs to where another disk touches these first,
+/// seen from their joint; answers whether there was any.
 fn whole_aside(contacts: &mut [ContactItem], shots: &[Shot]) -> bool {
     let is_whole = |c: &ContactItem| shots[c.joint as usize].contact == Contact::Whole;
     let mut others: HashMap<u32, [(f64, Foot); 2]> = HashMap::new();

@@ -119,8 +119,7 @@ impl Mat {
             radius: 0.5 * (ends[0].radius + ends[1].radius),
         };
         // Ends that are one for all that residuals tell have no disk between them that is not either of them.
-        let length = ends[0].center.distance(ends[1].center) + (ends[0].radius - ends[1].radius).abs();
-        let is_long = length > self.residual_error();
+        let is_long = ends[0].apart(ends[1]) > self.residual_error();
         let inner = || inner_disk(&self.sites, pieces, self.graph.error);
         let disk = is_long.then(inner).flatten().unwrap_or(between);
         let radii = ends.map(|d| d.radius);

@@ -17,8 +17,7 @@ pub(super) fn bezier(sites: &[Site], graph: &Graph, edge: &GraphEdge) -> ([Point
     let [u, v] = edge.disks.map(|d| graph.disks[d as usize].center);
     let straight = ([u, u.midpoint(v), v], 1.0);
     let [a, b] = edge.pieces.map(|p| graph.pieces[p as usize].piece);
-    let is_straight =
-        |p: &Piece| sites[p.site as usize].curvature == 0.0 && !sites[p.site as usize].is_vertex;
+    let is_straight = |p: &Piece| sites[p.site as usize].is_straight();
     if is_straight(&a) && is_straight(&b) || both_vertices(sites, &a, &b) {
         return straight;
     }

@@ -158,8 +158,7 @@ impl Graph {
         for edge in std::mem::take(&mut self.edges) {
             // The older disk stays for both: it comes from a joint, not from an intersection.
             let [a, b] = edge.disks.map(|d| same.find(d));
-            let (da, db) = (&self.disks[a as usize], &self.disks[b as usize]);
-            let apart = da.center.distance(db.center) + (da.radius - db.radius).abs();
+            let apart = self.disks[a as usize].apart(&self.disks[b as usize]);
             if !(apart <= self.error && same.unite(a, b)) {
                 kept.push(edge);
             }

@@ -220,7 +220,7 @@ impl Lamination {
 
     /// Notes how far apart two disks are that become one.
     fn note_union(&mut self, [a, b]: [UnitDisk; 2]) -> f64 {
-        let apart = a.center.distance(b.center) + (a.radius - b.radius).abs();
+        let apart = a.apart(&b);
         if apart > self.widest_union.0 {
             self.widest_union = (apart, a.center);
         }

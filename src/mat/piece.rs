@@ -10,6 +10,14 @@ pub(crate) struct UnitDisk {
     pub radius: f64,
 }
 
+impl UnitDisk {
+    /// How far another disk is from being this one.
+    #[inline]
+    pub fn apart(&self, other: &UnitDisk) -> f64 {
+        self.center.distance(other.center) + (self.radius - other.radius).abs()
+    }
+}
+
 /// A part of one site between two places where disks touch it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Piece {

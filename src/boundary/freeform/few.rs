@@ -247,7 +247,10 @@ mod tests {
         let track = Track::new(&pieces);
         let ends = Ends::of([track.cut_node(0.0, Side::After), track.cut_node(1.0, Side::Before)]);
         let mut density = Density::default();
-        density.fill(&track, (&ends.nodes, 1e-6), |jet| jet.d1.length() * jet.curvature_slope().abs().cbrt());
+        // The finest tolerance of those below.
+        let finest = 0.5f64.powi(24);
+        density
+            .fill(&track, (&ends.nodes, finest), |jet| jet.d1.length() * jet.curvature_slope().abs().cbrt());
         let mut found = Vec::new();
         for arcs in 1..=MOST_ARCS {
             let mut cells = Vec::new();

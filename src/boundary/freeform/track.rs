@@ -350,7 +350,8 @@ fn refined(piece: &Piece, mut near: f64, mut far: f64, place: Vector, distance: 
 /// Steps of Newton's method from a parameter nearby, before the search begins anew.
 const NEAR_STEPS: usize = 6;
 
-/// A step of Newton's method so much shorter than the distance squares to less than round-off.
+/// A step of Newton's method so much shorter than the distance leaves 1e-14 of that, less than places there are
+/// uncertain by.
 const NEAR_ENOUGH: f64 = 1e-7;
 
 /// A step of Newton's method so much shorter than the bracket squares to less than round-off.

@@ -83,6 +83,7 @@ mod tests {
             let rate = if i % 7 < 3 { 600.0 } else { 300.0 };
             moves.push(match i % 5 {
                 0 => Move::Feed { to: ahead(1.0, -1.0), rate },
+                // Less than the last decimal.
                 1 => Move::Feed { to: ahead(1e-9, -1.0), rate },
                 2 => {
                     Move::Arc { to: ahead(2.0, -1.0), center: point(at.x + 1.0, 0.0), ccw: i % 2 == 0, rate }
