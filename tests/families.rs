@@ -26,8 +26,8 @@ fn every_axis_and_level_of_nearly_degenerate_families_is_right() {
 }
 
 /// Pockets whose axis was wrong once: chords of different disks that crossed, hair-thin necks, flat corners
-/// where a reach goes from nothing to infinity within roundings.
-const ONCE_WRONG: [(&str, u64); 19] = [
+/// where a reach goes from nothing to infinity within roundings, circles in hundreds of arcs.
+const ONCE_WRONG: [(&str, u64); 23] = [
     ("circle", 5094),
     ("circle", 5356),
     ("circle", 10916),
@@ -41,9 +41,13 @@ const ONCE_WRONG: [(&str, u64); 19] = [
     ("smooth", 5020),
     ("smooth", 5248),
     ("smooth", 5316),
+    ("smooth", 10081),
+    ("smooth", 10580),
     ("smooth", 10614),
     ("smooth", 11172),
     ("smooth", 13539),
+    ("smooth", 14453),
+    ("smooth", 14488),
     ("smooth", 15172),
     ("smooth", 17899),
     ("spiral", 11355),

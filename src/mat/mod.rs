@@ -22,6 +22,7 @@ mod apart;
 mod bvh;
 mod check;
 mod circuit;
+mod cocircular;
 mod conic;
 mod contacts;
 mod division;

@@ -1,10 +1,11 @@
 //! From the loops of a pocket to its sites.
 //!
-//! Arcs are split so that none sweeps more than a quarter turn, reflex vertices get their normal
-//! cones, and every hole gets a joint at its extreme place in one direction: the maximal disk there
+//! Arcs are split so that none sweeps more than a quarter turn, many arcs on one circle are united up to
+//! that (`cocircular`), reflex vertices get their normal cones, and every hole gets a joint at its extreme place in one direction: the maximal disk there
 //! lies beyond the hole and links it to a component that reaches farther in that direction, so that
 //! these links form a tree (design after Aichholzer et al., SoCG 2009, with a shot for their sweep).
 
+use super::cocircular::{Run, runs};
 use super::frame::Frame;
 use super::site::{Foot, Joint, NONE, Site};
 use super::splice::{Drawn, TANGENT_ROUNDINGS, same_places, splice};
@@ -58,7 +59,7 @@ impl Sites {
         for row in splice(pocket.loops(), frame) {
             let hole = is_hole(&row, pocket);
             let mut parts: Vec<Part> = Vec::with_capacity(row.len() + row.len() / 4);
-            row.iter().for_each(|drawn| add_parts(drawn, whole, &mut parts));
+            runs(&row, whole, frame.noise).iter().for_each(|run| add_parts(run, whole, &mut parts));
             let lent = lend_directions(&mut parts, frame.noise);
             all.blur = all.blur.max(lent).max(share_normals(&mut parts, frame.noise));
             if hole {
@@ -205,7 +206,8 @@ struct Part {
     chord: f64,
     /// Length of the chord of its own element.
     own_chord: f64,
-    /// Angle that it may turn by unseen: near the round-off, an arc is drawn straight.
+    /// Angle that it may turn by unseen: near the round-off, an arc is drawn straight, and one arc may stand
+    /// for many.
     unseen: f64,
     /// Whether it is the last part of its element.
     last: bool,
@@ -222,17 +224,19 @@ fn is_hole(row: &[Drawn], pocket: &Pocket) -> bool {
     row.iter().map(|d| d.element.area(row[0].element.start)).sum::<f64>() < 0.0
 }
 
-/// Adds the element in parts that sweep a quarter at most; parts share places and normals. An element whose
-/// bulge is at most `whole` is one part.
-fn add_parts(drawn: &Drawn, whole: f64, parts: &mut Vec<Part>) {
+/// Adds the element of a run in parts that sweep a quarter at most; parts share places and normals. An element
+/// whose bulge is at most `whole` is one part.
+fn add_parts(run: &Run, whole: f64, parts: &mut Vec<Part>) {
+    let Run { drawn, shorter, turned } = run;
     let e = &drawn.element;
     let kind = if e.is_segment() { SiteKind::Segment } else { SiteKind::Arc };
     let source = SiteRef { loop_index: drawn.loop_index, element: drawn.index, kind };
     let (n0, n1) = e.normals();
-    let (curvature, chord) = (e.curvature(), e.chord().length());
+    let (curvature, own_chord) = (e.curvature(), e.chord().length());
     let start = Foot { point: e.start, normal: n0 };
     let end = Foot { point: e.end, normal: n1 };
-    let mut part = Part { start, end, curvature, source, chord, own_chord: chord, unseen: 0.0, last: true };
+    let (chord, unseen) = (*shorter, *turned);
+    let mut part = Part { start, end, curvature, source, chord, own_chord, unseen, last: true };
     let count = if e.bulge.abs() <= whole {
         1
     } else {
@@ -311,7 +315,7 @@ fn lend_directions(parts: &mut [Part], noise: f64) -> f64 {
             let longer =
                 |i: usize| if parts[i].chord > parts[to].chord { parts[i].curvature.abs() } else { 0.0 };
             let bend = longer(from) + longer(beside(to, forward));
-            parts[to].unseen = bend * parts[to].chord;
+            parts[to].unseen += bend * parts[to].chord;
             parts[to].chord = parts[from].chord;
             largest = largest.max(sine.abs());
             from = to;
@@ -340,7 +344,7 @@ fn share_normals(parts: &mut [Part], noise: f64) -> f64 {
 }
 
 /// Length below which noise tilts an element by more than that length: `c noise / l > l`.
-fn sliver(noise: f64) -> f64 {
+pub(super) fn sliver(noise: f64) -> f64 {
     (TANGENT_ROUNDINGS * noise).sqrt()
 }
 

@@ -34,7 +34,8 @@ pub struct SiteRef {
     /// Index of the loop in [`Pocket::loops`](crate::Pocket::loops).
     #[serde(rename = "loop")]
     pub loop_index: u32,
-    /// Index of the element; of the vertex for a reflex vertex.
+    /// Index of the element; of the vertex for a reflex vertex. Where several arcs lie on one circle to
+    /// within round-off, and all in a quarter of it, that of the first stands for them.
     pub element: u32,
     /// What it is.
     pub kind: SiteKind,
