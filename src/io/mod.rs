@@ -1,5 +1,6 @@
 //! Drawings in, programs and pictures out. Formats only: no geometry is decided here.
 
+mod advice;
 pub mod atomic;
 #[cfg(feature = "dxf")]
 pub mod dxf;
