@@ -48,6 +48,7 @@ mod ray;
 mod regions;
 mod sieve;
 mod simple;
+mod strands;
 mod tee;
 
 pub use curve::{Curve, FreeCurve, FreeShape, Source};
