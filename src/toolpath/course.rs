@@ -6,6 +6,9 @@ use crate::geom::{ArcSpline, Element, Point};
 /// splines turn by round-off, corners that are seen on a part by degrees.
 const CORNER: f64 = 0.01;
 
+/// Round-off of a difference of two distances, against the distance that it is held against.
+const ROUNDINGS: f64 = 16.0 * f64::EPSILON;
+
 /// Elements in order of travel; closed when the last ends where the first begins.
 #[derive(Clone, Debug)]
 pub(super) struct Course {
@@ -28,11 +31,12 @@ impl Course {
     pub fn along(spline: &ArcSpline, backwards: bool) -> Option<Course> {
         let start = spline.vertices.first()?.point;
         let useful = |e: &Element| e.is_finite() && (e.start != e.end);
-        let elements: Vec<Element> = if backwards {
-            (0..spline.len()).rev().map(|i| spline.element(i).reversed()).filter(useful).collect()
+        let mut elements = Vec::with_capacity(spline.len() + 1);
+        if backwards {
+            elements.extend((0..spline.len()).rev().map(|i| spline.element(i).reversed()).filter(useful));
         } else {
-            spline.elements().filter(useful).collect()
-        };
+            elements.extend(spline.elements().filter(useful));
+        }
         let start = elements.first().map_or(start, |e| e.start);
         Some(Course { elements, closed: spline.closed, start })
     }
@@ -60,6 +64,11 @@ impl Course {
         }
         let mut best = Place { element: 0, point: self.start, distance: f64::INFINITY };
         for (element, e) in self.elements.iter().enumerate() {
+            // No place of an arc up to a half circle is farther from its start than its end is.
+            let beside = e.start.distance(p) - e.chord().length();
+            if e.bulge.abs() <= 1.0 && beside > best.distance * (1.0 + ROUNDINGS) {
+                continue;
+            }
             let near = e.nearest(p);
             if near.distance < best.distance {
                 best = Place { element, point: near.point, distance: near.distance };

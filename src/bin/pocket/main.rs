@@ -70,7 +70,10 @@ fn machine() -> Result<Exit, Failure> {
     drop(progress);
     let report = Report::new(&plan, verdict.as_ref(), args.timings.then_some(timings));
     tell(&args, &plan, &report)?;
-    Ok(exit(&args, &plan, verdict.as_ref()))
+    let exit = exit(&args, &plan, verdict.as_ref());
+    // The system takes back millions of moves at once.
+    std::mem::forget(plan);
+    Ok(exit)
 }
 
 fn set_threads(args: &Args) -> Result<(), Failure> {
