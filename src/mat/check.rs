@@ -2,7 +2,7 @@
 
 use super::bvh::SearchDisk;
 use super::graph::{BoundaryPiece, DISK_ROUNDINGS, Graph, GraphEdge};
-use super::piece::{Piece, UnitDisk};
+use super::piece::UnitDisk;
 use super::site::{Foot, NONE};
 use super::splice::TANGENT_ROUNDINGS;
 use super::track::inner_disk;
@@ -112,7 +112,7 @@ impl Mat {
 
     /// The disk in the middle of an edge, and how far its radius lies beyond those of the ends.
     fn middle(&self, edge: &GraphEdge) -> (UnitDisk, f64) {
-        let pieces = edge.pieces.map(|p| &self.graph.pieces[p as usize].piece);
+        let [a, b] = edge.pieces.map(|p| self.graph.piece(&self.sites, p));
         let ends = edge.disks.map(|d| &self.graph.disks[d as usize]);
         let between = UnitDisk {
             center: ends[0].center.midpoint(ends[1].center),
@@ -120,7 +120,7 @@ impl Mat {
         };
         // Ends that are one for all that residuals tell have no disk between them that is not either of them.
         let is_long = ends[0].apart(ends[1]) > self.residual_error();
-        let inner = || inner_disk(&self.sites, pieces, self.graph.error);
+        let inner = || inner_disk(&self.sites, [&a, &b], self.graph.error);
         let disk = is_long.then(inner).flatten().unwrap_or(between);
         let radii = ends.map(|d| d.radius);
         let beyond = (disk.radius - radii[0].max(radii[1])).max(radii[0].min(radii[1]) - disk.radius);
@@ -170,8 +170,8 @@ impl Mat {
     }
 
     /// Where disks touch the boundary, found by walking around it: every piece must go on where the
-    /// one before ends, in place and in the disk that touches there; together they must be all sites,
-    /// and both sides of every edge.
+    /// one before ends, in place and in the disk that touches there; together they must be all pieces, all
+    /// sites, and both sides of every edge.
     fn touches(&self) -> Result<Vec<Touch>, Mismatch> {
         let pieces = &self.graph.pieces;
         let mut walk = Walk { seen: vec![false; pieces.len()], touches: Vec::new(), sites: 0, sides: 0 };
@@ -190,17 +190,18 @@ impl Mat {
                 self.walk_ring(first, disk, &mut walk)?;
             }
         }
-        if walk.sites == self.sites.len() && walk.sides == 2 * self.graph.edges.len() {
+        let missed = (0..pieces.len()).find(|&i| !walk.seen[i] && pieces[i].next != NONE);
+        let is_all = walk.sites == self.sites.len() && walk.sides == 2 * self.graph.edges.len();
+        if is_all && missed.is_none() {
             return Ok(walk.touches);
         }
-        let missed = (0..pieces.len()).find(|&i| !walk.seen[i] && pieces[i].next != NONE);
-        let at = missed.map_or(Point::default(), |i| pieces[i].piece.from.point);
+        let at = missed.map_or(Point::default(), |i| pieces[i].from.point);
         Err(Mismatch::Boundary { at: self.frame.leave(at) })
     }
 
     /// Walks around a ring that begins in a disk, unless it was walked around.
     fn walk_ring(&self, first: u32, begin: u32, walk: &mut Walk) -> Result<(), Mismatch> {
-        let at = || self.frame.leave(self.graph.pieces[first as usize].piece.from.point);
+        let at = || self.frame.leave(self.graph.pieces[first as usize].from.point);
         let goes_on = walk.seen[first as usize] || self.goes_around(first, begin, walk).is_some();
         goes_on.then_some(()).ok_or_else(|| Mismatch::Boundary { at: at() })
     }
@@ -210,19 +211,20 @@ impl Mat {
         let (mut at, mut disk) = (first, begin);
         while !walk.seen[at as usize] {
             walk.seen[at as usize] = true;
-            let BoundaryPiece { piece, next, edge } = self.graph.pieces[at as usize];
+            let here = &self.graph.pieces[at as usize];
+            let piece = self.graph.piece(&self.sites, at);
             // A piece without an edge is the contact arc of one disk.
-            let ends = if edge == NONE { [disk; 2] } else { self.disks_of(at)? };
+            let ends = if here.edge == NONE { [disk; 2] } else { self.disks_of(at)? };
             if ends[0] != disk {
                 return None;
             }
             disk = ends[1];
             let touch = |foot, disk| Touch { site: piece.site, foot, disk };
             walk.touches.extend([touch(piece.from, ends[0]), touch(piece.to, ends[1])]);
-            walk.sides += usize::from(edge != NONE);
-            walk.sites +=
-                usize::from(self.enters_site(&piece, &self.graph.pieces.get(next as usize)?.piece)?);
-            at = next;
+            walk.sides += usize::from(here.edge != NONE);
+            let after = self.graph.pieces.get(here.next as usize)?;
+            walk.sites += usize::from(self.enters_site(here.site, after)?);
+            at = here.next;
         }
         (at == first && disk == begin).then_some(())
     }
@@ -238,14 +240,14 @@ impl Mat {
         }
     }
 
-    /// Whether a piece that follows another begins the next site; `None` if it does not follow.
-    fn enters_site(&self, piece: &Piece, after: &Piece) -> Option<bool> {
-        if piece.site == after.site && piece.to == after.from {
-            return Some(false);
+    /// Whether the piece that follows one on a site begins the next site; `None` if it does not follow.
+    fn enters_site(&self, site: u32, after: &BoundaryPiece) -> Option<bool> {
+        if site == after.site {
+            return (!after.begins).then_some(false);
         }
-        let (here, there) = (&self.sites[piece.site as usize], &self.sites[after.site as usize]);
-        let joined = here.next == after.site && piece.to == here.end && after.from == there.start;
-        joined.then_some(true)
+        let there = &self.sites[after.site as usize];
+        let joined = self.sites[site as usize].next == after.site && after.from == there.start;
+        (joined && after.begins).then_some(true)
     }
 
     fn check_topology(&self) -> Result<(), Mismatch> {

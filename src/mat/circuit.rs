@@ -6,6 +6,7 @@
 
 use super::bvh::hilbert;
 use super::graph::Graph;
+use super::piece::Piece;
 use super::site::{Foot, NONE, Site};
 
 /// Where a piece of the boundary begins.
@@ -91,7 +92,7 @@ impl Circuit {
         };
         let mut starts: Vec<_> = (0usize..).zip(firsts.into_iter().map(start)).collect();
         // What is near is near in memory.
-        starts.sort_by_cached_key(|&(_, [start, _])| hilbert(graph.pieces[start as usize].piece.from.point));
+        starts.sort_by_cached_key(|&(_, [start, _])| hilbert(graph.pieces[start as usize].from.point));
         circuit.rings = vec![Ring { stops: 0..0, least: 0.0 }; starts.len()];
         for (ring, start) in starts {
             circuit.rings[ring] = circuit.add_ring(sites, graph, start, &mut stop_of);
@@ -125,14 +126,14 @@ impl Circuit {
         let mut before = NONE;
         loop {
             let piece = &graph.pieces[at as usize];
-            let here = &sites[piece.piece.site as usize];
-            let (from, to) = (piece.piece.from, piece.piece.to);
+            let here = &sites[piece.site as usize];
+            let Piece { from, to, .. } = graph.piece(sites, at);
             let turn = if here.is_straight() { 0.0 } else { from.normal.angle_to(to.normal) };
             let edge = graph.edges.get(piece.edge as usize);
             let backward = edge.is_some_and(|e| e.pieces[1] == at);
             stop_of[at as usize] = self.stops.len() as u32;
             self.radii.push(graph.disks.get(disk as usize).map_or(0.0, |d| d.radius));
-            let site = piece.piece.site;
+            let site = piece.site;
             let across = edge.map_or(NONE, |e| e.pieces[usize::from(!backward)]);
             let after = after(sites, before, site);
             self.stops.push(Stop { foot: from, site, edge: piece.edge, disk });
@@ -186,7 +187,7 @@ fn ring_firsts(graph: &Graph) -> Vec<u32> {
 /// The first piece from here on that begins a site, so that no site is cut where a ring begins.
 fn site_start(graph: &Graph, first: u32) -> u32 {
     let next = |at: u32| graph.pieces[at as usize].next;
-    let site = |at: u32| graph.pieces[at as usize].piece.site;
+    let site = |at: u32| graph.pieces[at as usize].site;
     let mut at = first;
     while site(at) == site(next(at)) {
         at = next(at);

@@ -16,7 +16,7 @@ use crate::geom::{Point, Vector};
 pub(super) fn bezier(sites: &[Site], graph: &Graph, edge: &GraphEdge) -> ([Point; 3], f64) {
     let [u, v] = edge.disks.map(|d| graph.disks[d as usize].center);
     let straight = ([u, u.midpoint(v), v], 1.0);
-    let [a, b] = edge.pieces.map(|p| graph.pieces[p as usize].piece);
+    let [a, b] = edge.pieces.map(|p| graph.piece(sites, p));
     let is_straight = |p: &Piece| sites[p.site as usize].is_straight();
     if is_straight(&a) && is_straight(&b) || both_vertices(sites, &a, &b) {
         return straight;

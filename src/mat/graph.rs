@@ -3,7 +3,7 @@
 use super::face::Slot;
 use super::lamination::Lamination;
 use super::patch::Faces;
-use super::piece::{Piece, UnitDisk};
+use super::piece::{Piece, UnitDisk, cut_vertex};
 use super::root::falling_root;
 use super::site::{Foot, NONE, Site};
 use super::touch::foot_of;
@@ -11,14 +11,18 @@ use super::track::Track;
 use super::union::Sets;
 use rayon::prelude::*;
 
-/// A piece with its place on the boundary and in the axis.
+/// Where a piece begins, with its place on the boundary and in the axis. It ends where the next one on its site
+/// begins, or with the site: see [`Graph::piece`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BoundaryPiece {
-    pub piece: Piece,
+    pub from: Foot,
+    pub site: u32,
     /// The piece that follows on the boundary; [`NONE`] for what is no piece, the way over a link.
     pub next: u32,
     /// The edge on its left, [`NONE`] along the contact arc of a leaf.
     pub edge: u32,
+    /// Whether it begins where its site does.
+    pub begins: bool,
 }
 
 /// An edge of the axis between the pieces on its two sides.
@@ -49,7 +53,7 @@ impl Graph {
     /// The graph of a lamination: all faces solved.
     pub(super) fn of(sites: &[Site], mut map: Lamination, error: f64) -> Graph {
         let mut graph = Graph { disks: std::mem::take(&mut map.disks), error, ..Graph::default() };
-        graph.pieces = Graph::pieces_of(sites, &map);
+        graph.pieces = map.pieces(sites);
         let faces = Graph::faces_of(&map);
         // What follows needs the faces alone.
         drop(map);
@@ -57,19 +61,18 @@ impl Graph {
         graph
     }
 
-    /// The pieces that end at the visits of a lamination.
-    fn pieces_of(sites: &[Site], map: &Lamination) -> Vec<BoundaryPiece> {
-        let follow = map.boundary_order(map.item_count(sites));
-        let mut pieces = Vec::with_capacity(map.visits.len());
-        let before = |i: u32, row: &std::ops::Range<u32>| if i == row.start { row.end - 1 } else { i - 1 };
-        for row in &map.rows {
-            for i in row.clone() {
-                let piece = map.piece(sites, i, before(i, row));
-                let next = if map.visits[i as usize].crossed { NONE } else { follow[i as usize] };
-                pieces.push(BoundaryPiece { piece, next, edge: NONE });
-            }
-        }
-        pieces
+    /// A piece with both of its ends.
+    #[inline]
+    pub fn piece(&self, sites: &[Site], id: u32) -> Piece {
+        let BoundaryPiece { from, site, next, begins, .. } = self.pieces[id as usize];
+        let whole = &sites[site as usize];
+        let cut = cut_vertex(whole);
+        let v0 = if begins { whole.vertices[0] } else { cut };
+        let (to, v1) = match self.pieces.get(next as usize) {
+            Some(after) if after.site == site => (after.from, cut),
+            _ => (whole.end, whole.vertices[1]),
+        };
+        Piece { site, from, to, vertices: [v0, v1] }
     }
 
     fn faces_of(map: &Lamination) -> Faces {
@@ -99,9 +102,16 @@ impl Graph {
         self.edges.reserve_exact(edges);
     }
 
-    /// Adds pieces that follow on none yet and have no edge.
-    pub(super) fn add_pieces(&mut self, pieces: &[Piece]) {
-        self.pieces.extend(pieces.iter().map(|&piece| BoundaryPiece { piece, next: NONE, edge: NONE }));
+    /// Adds rests of pieces that follow on none yet and have no edge.
+    pub(super) fn add_rests(&mut self, rests: &[Piece]) {
+        let rest = |&Piece { from, site, .. }: &Piece| BoundaryPiece {
+            from,
+            site,
+            next: NONE,
+            edge: NONE,
+            begins: false,
+        };
+        self.pieces.extend(rests.iter().map(rest));
     }
 
     /// Lets a rest follow on the piece that it was cut from.
@@ -138,12 +148,9 @@ impl Graph {
     }
 
     /// Cuts a piece at a foot; the id stays with the first part, that of the rest is returned.
-    pub(super) fn cut(&mut self, sites: &[Site], id: u32, foot: Foot) -> u32 {
+    pub(super) fn cut(&mut self, id: u32, foot: Foot) -> u32 {
         let rest_id = self.pieces.len() as u32;
-        let cut = &mut self.pieces[id as usize];
-        let rest = cut.piece.cut(sites, foot);
-        let rest = BoundaryPiece { piece: rest, ..*cut };
-        self.pieces.push(rest);
+        self.pieces.push(BoundaryPiece { from: foot, begins: false, ..self.pieces[id as usize] });
         self.follow(id, rest_id);
         rest_id
     }
@@ -193,8 +200,8 @@ impl Graph {
         for Extremum { id, disk, feet } in extrema {
             let edge = self.edges[id];
             let middle = self.add_disk(disk);
-            let rest_a = self.cut(sites, edge.pieces[0], feet[0]);
-            let rest_b = self.cut(sites, edge.pieces[1], feet[1]);
+            let rest_a = self.cut(edge.pieces[0], feet[0]);
+            let rest_b = self.cut(edge.pieces[1], feet[1]);
             self.edges[id] = GraphEdge { pieces: [edge.pieces[0], rest_b], disks: [edge.disks[0], middle] };
             self.pieces[rest_b as usize].edge = id as u32;
             self.add_edge([rest_a, edge.pieces[1]], [middle, edge.disks[1]]);
@@ -204,7 +211,7 @@ impl Graph {
     /// Where the radius has an extremum inside an edge.
     fn extremum(&self, sites: &[Site], id: usize) -> Option<Extremum> {
         let edge = self.edges[id];
-        let [a, b] = edge.pieces.map(|p| self.pieces[p as usize].piece);
+        let [a, b] = edge.pieces.map(|p| self.piece(sites, p));
         let mut growth = [b.to.normal.cross(a.from.normal), b.from.normal.cross(a.to.normal)];
         // From a corner the radius can only grow, however flat its cusp.
         let radii = edge.disks.map(|d| self.disks[d as usize].radius);

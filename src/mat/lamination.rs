@@ -20,7 +20,8 @@
 use super::apart::set_apart;
 use super::check::Doubt;
 use super::contacts::{ContactItem, Order, contacts};
-use super::piece::{Piece, UnitDisk, cut_vertex};
+use super::graph::BoundaryPiece;
+use super::piece::UnitDisk;
 use super::shot::Shot;
 use super::site::NONE;
 use super::site::Site;
@@ -261,28 +262,35 @@ impl Lamination {
         }
     }
 
-    /// The piece that ends at a visit.
-    pub fn piece(&self, sites: &[Site], visit: u32, before: u32) -> Piece {
-        let n = sites.len() as u32;
-        let (item, item_before) = (self.visits[visit as usize].item, self.visits[before as usize].item);
-        let site = if item < n { item } else { self.contacts[(item - n) as usize].site };
-        let s = &sites[site as usize];
-        let (from, v0) = match item_before.checked_sub(n) {
-            None => (s.start, s.vertices[0]),
-            Some(c) => (self.contacts[c as usize].foot, cut_vertex(s)),
-        };
-        let (to, v1) = match item.checked_sub(n) {
-            None => (s.end, s.vertices[1]),
-            Some(c) => (self.contacts[c as usize].foot, cut_vertex(s)),
-        };
-        Piece { site, from, to, vertices: [v0, v1] }
+    /// The pieces that end at the visits.
+    pub fn pieces(&self, sites: &[Site]) -> Vec<BoundaryPiece> {
+        let leaves = self.leaves(sites);
+        let mut pieces = Vec::with_capacity(self.visits.len());
+        for row in &self.rows {
+            for i in row.clone() {
+                let before = if i == row.start { row.end - 1 } else { i - 1 };
+                let Visit { item, crossed, .. } = self.visits[i as usize];
+                let next = if crossed { NONE } else { leaves[item as usize] };
+                pieces.push(BoundaryPiece { next, ..self.piece(sites, item, before) });
+            }
+        }
+        pieces
     }
 
-    /// For every non-crossed visit, the visit whose piece follows on the boundary.
-    pub fn boundary_order(&self, item_count: usize) -> Vec<u32> {
+    /// The piece that ends at an item and begins at the visit before, with none that follows.
+    fn piece(&self, sites: &[Site], item: u32, before: u32) -> BoundaryPiece {
+        let n = sites.len() as u32;
+        let site = item.checked_sub(n).map_or(item, |c| self.contacts[c as usize].site);
+        let contact = self.visits[before as usize].item.checked_sub(n);
+        let from = contact.map_or(sites[site as usize].start, |c| self.contacts[c as usize].foot);
+        BoundaryPiece { from, site, next: NONE, edge: NONE, begins: contact.is_none() }
+    }
+
+    /// For every item, the visit whose piece follows on the boundary.
+    fn leaves(&self, sites: &[Site]) -> Vec<u32> {
         // A piece leaves an item at the visit after which the row goes on along the boundary: the
         // last of the item's visits that is not followed by a crossing.
-        let mut leaves = vec![NONE; item_count];
+        let mut leaves = vec![NONE; sites.len() + self.contacts.len()];
         for row in &self.rows {
             for i in row.clone() {
                 let after = if i + 1 == row.end { row.start } else { i + 1 };
@@ -291,7 +299,7 @@ impl Lamination {
                 }
             }
         }
-        self.visits.iter().map(|v| leaves[v.item as usize]).collect()
+        leaves
     }
 
     /// How many parts the axis has: one for each component of the pocket, but that the axis goes on from
@@ -308,11 +316,6 @@ impl Lamination {
             }
         }
         parts
-    }
-
-    /// Number of joints and contacts.
-    pub fn item_count(&self, sites: &[Site]) -> usize {
-        sites.len() + self.contacts.len()
     }
 }
 

@@ -100,7 +100,7 @@ impl Patch {
             own.clear();
             for slot in *face {
                 own.push(Slot { piece: patch.pieces.len() as u32, disk: patch.disks.len() as u32 });
-                patch.pieces.push(graph.pieces[slot.piece as usize].piece);
+                patch.pieces.push(graph.piece(sites, slot.piece));
                 patch.disks.push(graph.disks[slot.disk as usize]);
             }
             Face::solve(sites, &own, &mut patch);
@@ -157,9 +157,7 @@ impl Patch {
             i => (new_pieces + i - n) as u32,
         };
         graph.disks.extend_from_slice(&self.disks[begin.disks + n..end.disks]);
-        let (old, new) = self.pieces[begin.pieces..end.pieces].split_at(n);
-        slots.iter().zip(old).for_each(|(slot, &p)| graph.pieces[slot.piece as usize].piece = p);
-        graph.add_pieces(new);
+        graph.add_rests(&self.pieces[begin.pieces + n..end.pieces]);
         for &[cut, rest] in &self.cuts[begin.cuts..end.cuts] {
             graph.follow(piece(cut), piece(rest));
         }

@@ -174,7 +174,7 @@ impl Mat {
     pub fn edges(&self) -> Vec<AxisEdge> {
         let edge = |e: &super::graph::GraphEdge| {
             let (points, weight) = bezier(&self.sites, &self.graph, e);
-            let source = |p: u32| self.sites[self.graph.pieces[p as usize].piece.site as usize].source;
+            let source = |p: u32| self.sites[self.graph.pieces[p as usize].site as usize].source;
             let [right, left] = e.pieces.map(source);
             let straight = points[1] == points[0].midpoint(points[2]);
             let mut points = points.map(|p| self.frame.leave(p));

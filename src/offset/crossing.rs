@@ -116,10 +116,10 @@ impl Tracer<'_> {
     /// The crossing by halving, which does not fail.
     fn by_halving(&self, sides: &Sides) -> Crossing {
         let [a, b] = self.mat.graph.edges[sides.id as usize].pieces;
-        let [a, b] = [a, b].map(|p| &self.mat.graph.pieces[p as usize].piece);
+        let [a, b] = [a, b].map(|p| self.mat.graph.piece(&self.mat.sites, p));
         let extent = |[from, to]: [Foot; 2]| from.point.distance(to.point);
         let swap = extent(sides.feet[1]) > extent(sides.feet[0]);
-        let (along, across) = if swap { (b, a) } else { (a, b) };
+        let (along, across) = if swap { (&b, &a) } else { (&a, &b) };
         let falls = (sides.radii[0] > sides.radii[1]) != swap;
         let track = Track::of(&self.mat.sites, along);
         let radius = |t: f64| track.reach(&self.mat.sites, across, &track.at(t)).0;

@@ -102,7 +102,7 @@ pub(crate) fn parallel_bulge(mat: &Mat, edge: u32, backward: bool) -> Option<f64
     if (here.radius - there.radius).abs() > 2.0 * mat.graph.error {
         return None;
     }
-    let piece = &mat.graph.pieces[edge.pieces[usize::from(backward)] as usize].piece;
+    let piece = mat.graph.piece(&mat.sites, edge.pieces[usize::from(backward)]);
     let site = &mat.sites[piece.site as usize];
     let turn = piece.from.normal.angle_to(piece.to.normal);
     let radius = if site.is_vertex { here.radius } else { (site.curvature.recip() - here.radius).abs() };

@@ -55,12 +55,8 @@ impl<'a> Roads<'a> {
             }
         }
         let pieces = (0..).zip(&mat.graph.pieces).filter(|(_, p)| p.next != NONE);
-        let mut by_site: Vec<_> = pieces
-            .map(|(id, p)| {
-                let piece = &p.piece;
-                (piece.site, mat.sites[piece.site as usize].position(&piece.from), id)
-            })
-            .collect();
+        let mut by_site: Vec<_> =
+            pieces.map(|(id, p)| (p.site, mat.sites[p.site as usize].position(&p.from), id)).collect();
         by_site.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
         Roads { mat, edges, vertices, first, incident, by_site }
     }
@@ -176,7 +172,7 @@ impl<'a> Roads<'a> {
 
     fn site(&self, edge: u32, side: usize) -> &crate::mat::Site {
         let piece = self.mat.graph.edges[edge as usize].pieces[side];
-        &self.mat.sites[self.mat.graph.pieces[piece as usize].piece.site as usize]
+        &self.mat.sites[self.mat.graph.pieces[piece as usize].site as usize]
     }
 
     /// A stretch of an edge as elements that leave it by `flat` at most: an arc or a segment where the

@@ -84,7 +84,7 @@ impl Concatenation {
     /// Whether the boundary goes on along the same site from one piece to another, over nothing but
     /// pieces without length.
     fn goes_on(&self, from: u32, to: u32) -> bool {
-        let site = |p: u32| self.graph.pieces[p as usize].piece.site;
+        let site = |p: u32| self.graph.pieces[p as usize].site;
         let mut at = self.graph.pieces[from as usize].next;
         while at != to && self.graph.pieces[at as usize].edge == NONE && site(at) == site(from) && at != from
         {
@@ -100,11 +100,7 @@ impl Concatenation {
             at = self.graph.pieces[at as usize].next;
         }
         self.dead_pieces[last as usize] = true;
-        let end = self.graph.pieces[last as usize];
-        let joined = &mut self.graph.pieces[first as usize];
-        joined.piece.to = end.piece.to;
-        joined.piece.vertices[1] = end.piece.vertices[1];
-        joined.next = end.next;
+        self.graph.pieces[first as usize].next = self.graph.pieces[last as usize].next;
     }
 
     /// The graph of what is left, numbered anew.

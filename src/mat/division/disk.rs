@@ -38,7 +38,7 @@ impl Division<'_> {
     /// The disk tangent to an arc in its middle.
     pub fn disk_at_middle(&self, domain: &[Slot], a: usize) -> Option<DividingDisk> {
         let piece = self.piece(domain, a);
-        let probe = Track::of(self.sites, piece).at(0.5);
+        let probe = Track::of(self.sites, &piece).at(0.5);
         let limit = self.sites[piece.site as usize].own_limit();
         let (radius, toucher) = self.grow(domain, &probe, &[a], limit);
         let disk = UnitDisk { center: probe.center(radius), radius };
@@ -87,7 +87,7 @@ impl Division<'_> {
             if own.iter().any(|&o| self.piece(domain, o).site == self.piece(domain, i).site) {
                 continue;
             }
-            let reach = self.reach(self.piece(domain, i), probe);
+            let reach = self.reach(&self.piece(domain, i), probe);
             if reach < radius {
                 (radius, toucher) = (reach, Some(i));
             }
@@ -106,7 +106,7 @@ impl Division<'_> {
     pub fn dividing_disk(&self, domain: &[Slot], disk: UnitDisk, known: &[Tangent]) -> DividingDisk {
         let n = domain.len();
         let mut touches: Vec<Touch> =
-            (0..n).map(|i| self.touched(self.piece(domain, i), &disk, self.graph.error)).collect();
+            (0..n).map(|i| self.touched(&self.piece(domain, i), &disk, self.graph.error)).collect();
         let natural = |i: usize| domain[i].link.disk().is_none();
         // Both sides end in the joint, whatever round-off says of the place.
         let meet = |touches: &mut [Touch], i: usize| {
@@ -132,7 +132,7 @@ impl Division<'_> {
     /// may be the next piece's, as in the normal cone of a reflex vertex.
     fn touch_for_sure(&self, domain: &[Slot], disk: &UnitDisk, i: usize, touches: &mut [Touch]) {
         let n = domain.len();
-        let touch = |j: usize| self.touched(self.piece(domain, j), disk, f64::INFINITY);
+        let touch = |j: usize| self.touched(&self.piece(domain, j), disk, f64::INFINITY);
         let natural = |j: usize| domain[j].link.disk().is_none();
         touches[i] = touch(i);
         let mut at = i;
@@ -168,7 +168,7 @@ impl Division<'_> {
         let across = normal(second) - n0;
         let third = farthest(&|i| (normal(i) - n0).cross(across).abs());
         let disk = tangent_to_three([first, second, third].map(site), found.disk);
-        let gap = |i: usize| self.distance(self.piece(domain, i), disk.center) - disk.radius;
+        let gap = |i: usize| self.distance(&self.piece(domain, i), disk.center) - disk.radius;
         let error = self.graph.error;
         let touches = [first, second, third].into_iter().all(|i| gap(i).abs() <= error);
         let empty = (0..domain.len()).all(|i| gap(i) >= -error);

@@ -60,8 +60,8 @@ impl<'a> Division<'a> {
     fn of(all: &'a Sites, error: f64) -> Division<'a> {
         let mut graph = Graph { error, ..Graph::default() };
         for (id, site) in (0u32..).zip(&all.sites) {
-            let piece = Piece { site: id, from: site.start, to: site.end, vertices: site.vertices };
-            graph.pieces.push(BoundaryPiece { piece, next: site.next, edge: NONE });
+            let (from, next) = (site.start, site.next);
+            graph.pieces.push(BoundaryPiece { from, site: id, next, edge: NONE, begins: true });
         }
         let mut corners = HashMap::new();
         let mut corner = |id: u32| {
@@ -84,8 +84,8 @@ impl<'a> Division<'a> {
     }
 
     /// The piece in a place of a subdomain.
-    pub fn piece(&self, domain: &[Slot], i: usize) -> &Piece {
-        &self.graph.pieces[domain[i].piece as usize].piece
+    pub fn piece(&self, domain: &[Slot], i: usize) -> Piece {
+        self.graph.piece(self.sites, domain[i].piece)
     }
 
     /// Divides all that is open until it is a base case; a place of what no disk divides otherwise.

@@ -43,7 +43,8 @@ impl Division<'_> {
         let begin = domain[a].link.disk()?;
         let n = domain.len();
         let (before, b) = ((a + n - 1) % n, (a + 1) % n);
-        let pair = Pair { domain, before, a, b, track: Track::of(self.sites, self.piece(domain, a)) };
+        let piece = self.piece(domain, a);
+        let pair = Pair { domain, before, a, b, track: Track::of(self.sites, &piece) };
         let mut candidate = self.at_start(&pair);
         // An arc in the way may be passed over on the way back, so all are tested against the last disk.
         let others = || (0..n).filter(|&x| x != a && x != b);
@@ -74,7 +75,7 @@ impl Division<'_> {
     /// The disk where the first arc begins.
     fn at_start(&self, pair: &Pair<'_>) -> Candidate {
         let probe = pair.track.at(0.0);
-        let radius = self.reach(self.piece(pair.domain, pair.b), &probe);
+        let radius = self.reach(&self.piece(pair.domain, pair.b), &probe);
         let disk = radius.is_finite().then(|| UnitDisk { center: probe.center(radius), radius });
         let closed = pair.domain[pair.before].link.disk().is_some();
         let third = if closed { Tangent::Piece(pair.before) } else { Tangent::Joint(pair.before) };
@@ -91,9 +92,9 @@ impl Division<'_> {
             return None;
         }
         let probe = probe_at(site_b);
-        let radius = self.reach(a, &probe);
+        let radius = self.reach(&a, &probe);
         let disk = UnitDisk { center: probe.center(radius), radius };
-        let t = parameter(site, a, &foot_of(site, disk.center, &a.from, &a.to));
+        let t = parameter(site, &a, &foot_of(site, disk.center, &a.from, &a.to));
         let nearer = t > candidate.t || candidate.disk.is_none();
         (radius.is_finite() && nearer).then_some(Candidate {
             t,
@@ -106,10 +107,10 @@ impl Division<'_> {
     fn overlaps(&self, pair: &Pair<'_>, candidate: &Candidate, x: usize) -> bool {
         let x = self.piece(pair.domain, x);
         match candidate.disk {
-            Some(disk) => self.distance(x, disk.center) < disk.radius - self.graph.error,
+            Some(disk) => self.distance(&x, disk.center) < disk.radius - self.graph.error,
             None => {
                 let probe = pair.track.at(candidate.t);
-                self.reach(x, &probe) < self.reach(self.piece(pair.domain, pair.b), &probe)
+                self.reach(&x, &probe) < self.reach(&self.piece(pair.domain, pair.b), &probe)
             }
         }
     }
@@ -120,7 +121,7 @@ impl Division<'_> {
         let [a, b, c] = [pair.a, pair.b, x].map(|i| self.piece(pair.domain, i));
         let t = falling_root(candidate.t, 1.0, |t| {
             let probe = pair.track.at(t);
-            let (to_b, to_c) = (self.reach(b, &probe), self.reach(c, &probe));
+            let (to_b, to_c) = (self.reach(&b, &probe), self.reach(&c, &probe));
             match (to_b.is_finite(), to_c.is_finite()) {
                 (true, true) => (to_b - to_c) / (to_b + to_c),
                 (true, false) => -1.0,
@@ -128,7 +129,7 @@ impl Division<'_> {
             }
         });
         let probe = pair.track.at(t);
-        let radius = self.reach(b, &probe).min(self.reach(c, &probe));
+        let radius = self.reach(&b, &probe).min(self.reach(&c, &probe));
         if t <= candidate.t {
             return None;
         }

@@ -118,13 +118,13 @@ impl DividingDisk {
         let artificial = Link::Artificial(disk);
         let (mut parts, mut row) = (Vec::new(), Subdomain::new());
         for ((slot, touch), &joint) in domain.iter().zip(&self.touches).zip(&self.joints) {
-            let piece = graph.pieces[slot.piece as usize].piece;
+            let piece = graph.piece(sites, slot.piece);
             let start = touch.start.then_some(piece.from);
             let end = touch.end.then_some(piece.to);
             let mut rest = slot.piece;
             for foot in [start, touch.inside, end].into_iter().flatten() {
                 row.push(Slot { piece: rest, link: artificial });
-                rest = graph.cut(sites, rest, foot);
+                rest = graph.cut(rest, foot);
                 parts.push(std::mem::take(&mut row));
             }
             row.push(Slot { piece: rest, link: if joint { artificial } else { slot.link } });

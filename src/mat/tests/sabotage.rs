@@ -135,15 +135,9 @@ fn a_foot_moved_along_the_boundary_is_seen() {
         |mat| mat.graph.pieces.len(),
         |mat, way| {
             let step = HARM * size(mat);
-            let next = mat.graph.pieces[way].next;
-            let piece = &mut mat.graph.pieces[way].piece;
-            let same_site = next != NONE && !mat.sites[piece.site as usize].is_vertex;
-            piece.to.point += piece.to.normal.right() * step;
-            let foot = piece.to;
-            if same_site {
-                mat.graph.pieces[next as usize].piece.from = foot;
-            }
-            same_site
+            let piece = &mut mat.graph.pieces[way];
+            piece.from.point += piece.from.normal.right() * step;
+            piece.next != NONE && !mat.sites[piece.site as usize].is_vertex
         },
     );
 }
@@ -274,7 +268,7 @@ fn a_piece_of_the_boundary_left_out_is_seen() {
                 mat.graph.pieces[before].next = next;
             }
             // Ties leave pieces of no extent, which are nothing to leave out.
-            let piece = &mat.graph.pieces[way].piece;
+            let piece = mat.graph.piece(&mat.sites, way as u32);
             before.is_some() && next != NONE && piece.from != piece.to
         },
     );
