@@ -27,7 +27,6 @@ struct Boxes {
 pub(crate) struct Bvh {
     /// Lowest level first; each level packs the one below.
     levels: Vec<Vec<Boxes>>,
-    count: usize,
     /// The leaves, where they do not stand in the order of their numbers.
     order: Vec<u32>,
 }
@@ -70,18 +69,36 @@ impl Bvh {
             levels.push(std::mem::replace(&mut level, above));
         }
         levels.push(level);
-        Bvh { levels, count, order: Vec::new() }
+        Bvh { levels, order: Vec::new() }
+    }
+
+    /// The leaf that stands for each box.
+    pub fn leaves(&self) -> Vec<u32> {
+        let mut leaves = vec![0; self.order.len()];
+        (0..).zip(&self.order).for_each(|(leaf, &i)| leaves[i as usize] = leaf);
+        leaves
+    }
+
+    /// Whether the box of a leaf meets a disk, as in a search.
+    #[inline]
+    pub fn meets(&self, leaf: u32, reach: &Reach) -> bool {
+        let (boxes, j) = (&self.levels[0][leaf as usize / WIDTH], leaf as usize % WIDTH);
+        let at = |side: &f32x8| side.as_array()[j];
+        let dx = (at(&boxes.min_x) - reach.x).max(reach.x - at(&boxes.max_x)).max(0.0);
+        let dy = (at(&boxes.min_y) - reach.y).max(reach.y - at(&boxes.max_y)).max(0.0);
+        dx * dx + dy * dy <= reach.squared
     }
 
     /// Calls `visit` for every leaf whose box meets the disk, near boxes first. Whenever `visit`
     /// answers with a disk, the search goes on with that one, which must lie in the last.
     #[inline]
     pub fn search(&self, disk: SearchDisk, visit: impl FnMut(u32) -> Option<SearchDisk>) {
+        let all = |_, _| ALL;
         if self.order.is_empty() {
-            self.search_range(disk, 0..self.count, visit);
+            self.search_where(disk, all, visit);
         } else {
             let mut visit = visit;
-            self.search_range(disk, 0..self.count, |at| visit(self.order[at as usize]));
+            self.search_where(disk, all, |at| visit(self.order[at as usize]));
         }
     }
 
@@ -91,11 +108,21 @@ impl Bvh {
         &self,
         disk: SearchDisk,
         range: std::ops::Range<usize>,
+        visit: impl FnMut(u32) -> Option<SearchDisk>,
+    ) {
+        if !range.is_empty() {
+            self.search_where(disk, |first, level| inside(&range, first, level), visit);
+        }
+    }
+
+    /// The same for some children of each node, told by the number of the first one on its level: a bit for each.
+    #[inline]
+    fn search_where(
+        &self,
+        disk: SearchDisk,
+        children: impl Fn(usize, u32) -> u32,
         mut visit: impl FnMut(u32) -> Option<SearchDisk>,
     ) {
-        if range.is_empty() {
-            return;
-        }
         let mut reach = Reach::of(&disk);
         let mut stack = [(0u32, 0u32); STACK];
         stack[0] = (self.levels.len() as u32 - 1, 0);
@@ -106,15 +133,16 @@ impl Bvh {
             let boxes = &self.levels[level as usize][index as usize];
             let distances = boxes.squared_distances(&reach);
             let first = index as usize * WIDTH;
-            let mut bits = distances.simd_le(reach.squared).to_bitmask();
-            bits &= inside(&range, first, level);
+            let mut bits = distances.simd_le(f32x8::splat(reach.squared)).to_bitmask();
+            bits &= children(first, level);
             if level == 0 {
                 while bits != 0 {
                     let j = bits.trailing_zeros();
                     bits &= bits - 1;
                     if let Some(smaller) = visit(first as u32 + j) {
                         reach = Reach::of(&smaller);
-                        bits &= boxes.squared_distances(&reach).simd_le(reach.squared).to_bitmask();
+                        bits &=
+                            boxes.squared_distances(&reach).simd_le(f32x8::splat(reach.squared)).to_bitmask();
                     }
                 }
                 continue;
@@ -138,11 +166,13 @@ impl Bvh {
     }
 }
 
+/// A bit for each child of a node.
+const ALL: u32 = (1 << WIDTH) - 1;
+
 /// The children of a node whose leaves lie in a range, one bit each; `first` is the number of the first
 /// child on its level.
 #[inline]
 fn inside(range: &std::ops::Range<usize>, first: usize, level: u32) -> u32 {
-    const ALL: u32 = (1 << WIDTH) - 1;
     /// A node has as many leaves as this to the power of its level.
     const BITS: u32 = WIDTH.ilog2();
     let begin = (range.start >> (BITS * level)).saturating_sub(first).min(WIDTH);
@@ -192,15 +222,15 @@ fn spread(x: u32) -> u32 {
 
 /// A search disk in `f32`, its radius rounded up by the round-off of center and boxes.
 #[derive(Clone, Copy)]
-struct Reach {
-    x: f32x8,
-    y: f32x8,
-    squared: f32x8,
+pub(crate) struct Reach {
+    x: f32,
+    y: f32,
+    squared: f32,
 }
 
 impl Reach {
     #[inline]
-    fn of(disk: &SearchDisk) -> Reach {
+    pub fn of(disk: &SearchDisk) -> Reach {
         /// Center, radius and squared distance are each rounded to `f32` once or twice; eight
         /// roundings relative to all that is involved hold them.
         const ROUNDINGS: f64 = 8.0 * f32::EPSILON as f64;
@@ -208,8 +238,9 @@ impl Reach {
         let radius =
             disk.radius * (1.0 + ROUNDINGS) + magnitude * ROUNDINGS + f64::from(f32::MIN_POSITIVE).sqrt();
         let radius = radius as f32;
-        let splat = |c: f64| f32x8::splat(c as f32);
-        Reach { x: splat(disk.center.x), y: splat(disk.center.y), squared: f32x8::splat(radius * radius) }
+        // Boxes around nothing, which fill the last nodes, are infinitely far and meet no disk.
+        let squared = (radius * radius).min(f32::MAX);
+        Reach { x: disk.center.x as f32, y: disk.center.y as f32, squared }
     }
 }
 
@@ -240,8 +271,9 @@ impl Boxes {
     /// Squared distance of each box from the center.
     #[inline]
     fn squared_distances(&self, reach: &Reach) -> f32x8 {
-        let dx = (self.min_x - reach.x).fast_max(reach.x - self.max_x).fast_max(f32x8::ZERO);
-        let dy = (self.min_y - reach.y).fast_max(reach.y - self.max_y).fast_max(f32x8::ZERO);
+        let (x, y) = (f32x8::splat(reach.x), f32x8::splat(reach.y));
+        let dx = (self.min_x - x).fast_max(x - self.max_x).fast_max(f32x8::ZERO);
+        let dy = (self.min_y - y).fast_max(y - self.max_y).fast_max(f32x8::ZERO);
         dx * dx + dy * dy
     }
 }

@@ -2,10 +2,11 @@
 //!
 //! From a joint a disk grows along the normal until it touches the boundary elsewhere. The search
 //! starts from the curvature limit of the sites it is tangent to, tries the contacts of the last
-//! shots (the opposite wall runs backwards along with us) and the neighbors, and then asks the hierarchy. Shots are
-//! independent; hints live in runs of a fixed length, so the result does not depend on threads.
+//! shots (the opposite wall runs backwards along with us) and the neighbors, those whose boxes meet the disk, and then
+//! asks the hierarchy, which comes to most of these again. Shots are independent; hints live in runs of a fixed
+//! length, so the result does not depend on threads.
 
-use super::bvh::{Bvh, SearchDisk};
+use super::bvh::{Bvh, Reach, SearchDisk};
 use super::site::{Joint, NONE, Site};
 use super::touch::{Contact, Probe, Span, touch};
 use crate::geom::vector;
@@ -37,13 +38,14 @@ const OUTSIDE: f64 = 2.0;
 
 /// The disks at the ends of all sites; `blur` is the largest angle at a joint that was taken for round-off.
 pub(super) fn shoot_all(sites: &[Site], bvh: &Bvh, blur: f64) -> Vec<Shot> {
+    let field = Field { sites, bvh, leaves: bvh.leaves(), blur };
     let mut shots = vec![Shot { radius: 0.0, site: NONE, contact: Contact::Start }; sites.len()];
     shots.par_chunks_mut(RUN).enumerate().for_each(|(run, chunk)| {
         let mut hints = Hints([NONE; 6]);
         for (i, shot) in chunk.iter_mut().enumerate() {
             let joint = (run * RUN + i) as u32;
             if sites[joint as usize].joint != Joint::Convex {
-                *shot = shoot(sites, bvh, joint, blur, &hints);
+                *shot = field.shoot(joint, &hints);
                 if shot.contact != Contact::Whole {
                     hints.remember(shot.site);
                 }
@@ -74,44 +76,120 @@ pub(super) fn probe_at(site: &Site) -> Probe {
     }
 }
 
-fn shoot(sites: &[Site], bvh: &Bvh, joint: u32, blur: f64, hints: &Hints) -> Shot {
-    let site = &sites[joint as usize];
-    let probe = probe_at(site);
-    let mut best = curvature_limit(sites, joint);
-    let osculating = (best.contact == Contact::Whole).then(|| SearchDisk {
-        center: probe.center(best.radius),
-        radius: best.radius * (1.0 - direction_error(sites, joint, blur)),
-    });
-    let counts = |i: u32| osculating.is_none_or(|disk| reaches_into(&sites[i as usize], &disk));
-    let try_site = |best: &mut Shot, i: u32| -> bool {
-        let (radius, contact) = touch(Span::whole(&sites[i as usize]), &probe);
-        let shot = Shot { radius, site: i, contact };
-        if !(is_better(sites, &shot, best) && counts(i)) {
+/// What shots may meet.
+struct Field<'a> {
+    sites: &'a [Site],
+    bvh: &'a Bvh,
+    /// The leaf of each site.
+    leaves: Vec<u32>,
+    /// Largest angle at a joint that was taken for round-off.
+    blur: f64,
+}
+
+impl Field<'_> {
+    /// The maximal disk at a joint.
+    fn shoot(&self, joint: u32, hints: &Hints) -> Shot {
+        let sites = self.sites;
+        let site = &sites[joint as usize];
+        let mut growth = Growth::of(self, joint);
+        for &hint in hints.0.iter().filter(|&&h| h != NONE) {
+            growth.glance(hint);
+        }
+        if hints.0[0] != NONE {
+            let newest = &sites[hints.0[0] as usize];
+            growth.glance(newest.prev);
+            growth.glance(newest.next);
+        }
+        let (mut back, mut ahead) = (joint, site.next);
+        let beside = site.start.point.distance(site.end.point);
+        let is_large = growth.osculating.is_some() || growth.best.radius > ROUND * beside;
+        for _ in 0..if is_large { NEIGHBORS } else { 0 } {
+            (back, ahead) = (sites[back as usize].prev, sites[ahead as usize].next);
+            growth.glance(back);
+            growth.glance(ahead);
+        }
+        self.bvh.search(growth.disk(), |i| growth.try_site(i).then(|| growth.disk()));
+        growth.best
+    }
+}
+
+/// A disk at a joint while it is held back by ever more sites.
+struct Growth<'a> {
+    field: &'a Field<'a>,
+    probe: Probe,
+    best: Shot,
+    /// The disk that osculates an arc at the joint, if it was that which held back first.
+    osculating: Option<SearchDisk>,
+    /// The disk as it is looked for in boxes.
+    reach: Reach,
+    /// What was tried first, as the hierarchy will come to it again.
+    tried: [Shot; TRIED],
+    count: usize,
+}
+
+/// Shots that are remembered: more than most joints try before the search.
+const TRIED: usize = 8;
+
+impl<'a> Growth<'a> {
+    fn of(field: &'a Field<'a>, joint: u32) -> Growth<'a> {
+        let probe = probe_at(&field.sites[joint as usize]);
+        let best = curvature_limit(field.sites, joint);
+        let disk = SearchDisk { center: probe.center(best.radius), radius: best.radius };
+        let osculating = (best.contact == Contact::Whole).then(|| SearchDisk {
+            radius: best.radius * (1.0 - direction_error(field.sites, joint, field.blur)),
+            ..disk
+        });
+        let nothing = Shot { radius: OUTSIDE, site: NONE, contact: Contact::Start };
+        let (reach, tried) = (Reach::of(&disk), [nothing; TRIED]);
+        Growth { field, probe, best, osculating, reach, tried, count: 0 }
+    }
+
+    fn disk(&self) -> SearchDisk {
+        SearchDisk { center: self.probe.center(self.best.radius), radius: self.best.radius }
+    }
+
+    /// Tries a site that may be near.
+    #[inline]
+    fn glance(&mut self, i: u32) {
+        if self.field.bvh.meets(self.field.leaves[i as usize], &self.reach) && self.try_site(i) {
+            self.reach = Reach::of(&self.disk());
+        }
+    }
+
+    /// Lets a site hold the disk back; whether it makes it smaller.
+    fn try_site(&mut self, i: u32) -> bool {
+        // That which holds it back does so no more than it does.
+        if i == self.best.site && self.best.contact != Contact::Whole {
             return false;
         }
-        let shrunk = radius < best.radius;
-        *best = shot;
+        let shot = self.shot_at(i);
+        if !(is_better(self.field.sites, &shot, &self.best) && self.counts(i)) {
+            return false;
+        }
+        let shrunk = shot.radius < self.best.radius;
+        self.best = shot;
         shrunk
-    };
-    for &hint in hints.0.iter().filter(|&&h| h != NONE) {
-        try_site(&mut best, hint);
     }
-    if hints.0[0] != NONE {
-        let newest = &sites[hints.0[0] as usize];
-        try_site(&mut best, newest.prev);
-        try_site(&mut best, newest.next);
+
+    /// The disk to a site.
+    #[inline]
+    fn shot_at(&mut self, i: u32) -> Shot {
+        if let Some(known) = self.tried[..self.count].iter().find(|shot| shot.site == i) {
+            return *known;
+        }
+        let (radius, contact) = touch(Span::whole(&self.field.sites[i as usize]), &self.probe);
+        let shot = Shot { radius, site: i, contact };
+        if let Some(free) = self.tried.get_mut(self.count) {
+            *free = shot;
+            self.count += 1;
+        }
+        shot
     }
-    let (mut back, mut ahead) = (joint, site.next);
-    let beside = site.start.point.distance(site.end.point);
-    let neighbors = if osculating.is_some() || best.radius > ROUND * beside { NEIGHBORS } else { 0 };
-    for _ in 0..neighbors {
-        (back, ahead) = (sites[back as usize].prev, sites[ahead as usize].next);
-        try_site(&mut best, back);
-        try_site(&mut best, ahead);
+
+    /// Whether a site may hold back a disk that osculates.
+    fn counts(&self, i: u32) -> bool {
+        self.osculating.is_none_or(|disk| reaches_into(&self.field.sites[i as usize], &disk))
     }
-    let disk = |radius: f64| SearchDisk { center: probe.center(radius), radius };
-    bvh.search(disk(best.radius), |i| try_site(&mut best, i).then(|| disk(best.radius)));
-    best
 }
 
 /// Round-off of a radius, relative to it: eight roundings on either side of a comparison.
