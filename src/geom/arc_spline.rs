@@ -92,7 +92,7 @@ impl ArcSpline {
     /// Smallest box around the curve.
     pub fn bounds(&self) -> Bounds {
         let ends = Bounds::around(self.vertices.iter().map(|v| v.point));
-        self.elements().fold(ends, |b, e| if e.is_segment() { b } else { b.union(e.bounds()) })
+        self.elements().fold(ends, |b, e| if e.stays_in(&b) { b } else { b.union(e.bounds()) })
     }
 
     /// Distance from a place to the curve; infinite when there is none.

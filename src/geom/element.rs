@@ -247,6 +247,16 @@ impl Element {
         bounds
     }
 
+    /// Whether the element stays in a box around its ends, by far: not told of what comes near to its sides. An arc
+    /// of half a turn at most is nowhere farther from its chord than `|bulge|` times half its length.
+    pub(crate) fn stays_in(&self, bounds: &Bounds) -> bool {
+        let chord = self.chord();
+        let twice = self.bulge.abs() * (chord.x.abs() + chord.y.abs());
+        let grown = Bounds::around([self.start, self.end]).grown(twice);
+        self.is_segment()
+            || self.bulge.abs() <= 1.0 && bounds.contains(grown.min) && bounds.contains(grown.max)
+    }
+
     /// Whether the direction of travel is nowhere that of an axis, so that the ends are corners of
     /// the box; not told of arcs beyond a half circle.
     pub fn turns_within_a_quadrant(&self) -> bool {
