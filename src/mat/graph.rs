@@ -54,6 +54,7 @@ impl Graph {
     pub(super) fn of(sites: &[Site], mut map: Lamination, error: f64) -> Graph {
         let mut graph = Graph { disks: std::mem::take(&mut map.disks), error, ..Graph::default() };
         graph.pieces = map.pieces(sites);
+        map.forget_contacts();
         let faces = Graph::faces_of(&map);
         // What follows needs the faces alone.
         drop(map);
@@ -160,32 +161,28 @@ impl Graph {
     /// Ties leave such edges between disks that differ by round-off only. Edges are contracted one
     /// by one while their ends are different vertices, so V - E stays what it is.
     pub(super) fn contract(&mut self) {
-        let mut same = Sets::singles(self.disks.len());
-        let mut kept = Vec::with_capacity(self.edges.len());
-        for edge in std::mem::take(&mut self.edges) {
+        let Graph { disks, pieces, edges, error } = self;
+        let mut same = Sets::singles(disks.len());
+        edges.retain(|edge| {
             // The older disk stays for both: it comes from a joint, not from an intersection.
             let [a, b] = edge.disks.map(|d| same.find(d));
-            let apart = self.disks[a as usize].apart(&self.disks[b as usize]);
-            if !(apart <= self.error && same.unite(a, b)) {
-                kept.push(edge);
+            let apart = disks[a as usize].apart(&disks[b as usize]);
+            !(apart <= *error && same.unite(a, b))
+        });
+        let number = same.numbers();
+        let mut count = 0;
+        for i in 0..disks.len() {
+            // A disk that stays is the first of its set.
+            if number[i] == count {
+                disks[count as usize] = disks[i];
+                count += 1;
             }
         }
-        let mut number = vec![NONE; self.disks.len()];
-        let mut disks = Vec::with_capacity(self.disks.len());
-        for i in 0..self.disks.len() as u32 {
-            let r = same.find(i) as usize;
-            if number[r] == NONE {
-                number[r] = disks.len() as u32;
-                disks.push(self.disks[r]);
-            }
-            number[i as usize] = number[r];
-        }
-        self.disks = disks;
-        for piece in &mut self.pieces {
-            piece.edge = NONE;
-        }
-        for edge in kept {
-            self.add_edge(edge.pieces, edge.disks.map(|d| number[d as usize]));
+        disks.truncate(count as usize);
+        pieces.iter_mut().for_each(|piece| piece.edge = NONE);
+        for (id, edge) in (0u32..).zip(edges) {
+            edge.pieces.iter().for_each(|&p| pieces[p as usize].edge = id);
+            edge.disks = edge.disks.map(|d| number[d as usize]);
         }
     }
 

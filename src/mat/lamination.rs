@@ -277,6 +277,11 @@ impl Lamination {
         pieces
     }
 
+    /// Gives back what only pieces are made of.
+    pub fn forget_contacts(&mut self) {
+        self.contacts = Vec::new();
+    }
+
     /// The piece that ends at an item and begins at the visit before, with none that follows.
     fn piece(&self, sites: &[Site], item: u32, before: u32) -> BoundaryPiece {
         let n = sites.len() as u32;

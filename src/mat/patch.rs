@@ -45,11 +45,11 @@ impl Faces {
 
     /// Solves all faces.
     pub fn solve(self, sites: &[Site], graph: &mut Graph) {
-        let begins = std::iter::once(&0).chain(&self.ends);
-        let faces: Vec<&[Slot]> =
-            begins.zip(&self.ends).map(|(&a, &b)| &self.slots[a as usize..b as usize]).collect();
-        graph.reserve(growth(&faces));
-        for faces in faces.chunks(FACES * PATCHES) {
+        graph.reserve(self.growth());
+        let mut begin = 0;
+        for ends in self.ends.chunks(FACES * PATCHES) {
+            let face = |&end: &u32| &self.slots[std::mem::replace(&mut begin, end as usize)..end as usize];
+            let faces: Vec<&[Slot]> = ends.iter().map(face).collect();
             let shared = &*graph;
             let patches: Vec<Patch> =
                 faces.par_chunks(FACES).map(|faces| Patch::of(sites, shared, faces)).collect();
@@ -58,13 +58,13 @@ impl Faces {
             }
         }
     }
-}
 
-/// How many disks, pieces and edges faces add: `n` pieces need `n - 2` branch disks, each of which cuts three
-/// pieces and divides the face.
-fn growth(faces: &[&[Slot]]) -> [usize; 3] {
-    let branches: usize = faces.iter().map(|face| face.len() - 2).sum();
-    [branches, 3 * branches, 2 * branches + faces.len()]
+    /// How many disks, pieces and edges faces add: `n` pieces need `n - 2` branch disks, each of which cuts three
+    /// pieces and divides the face.
+    fn growth(&self) -> [usize; 3] {
+        let branches = self.slots.len() - 2 * self.ends.len();
+        [branches, 3 * branches, 2 * branches + self.ends.len()]
+    }
 }
 
 /// A part of the graph on which some faces are solved. Ids are its own.

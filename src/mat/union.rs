@@ -18,6 +18,18 @@ impl Sets {
         i
     }
 
+    /// The number of the set of each, counted in the order of their smallest members.
+    pub fn numbers(mut self) -> Vec<u32> {
+        let mut count = 0;
+        for i in 0..self.0.len() {
+            // What is before has its number.
+            let up = self.0[i] as usize;
+            self.0[i] = if up == i { count } else { self.0[up] };
+            count += u32::from(up == i);
+        }
+        self.0
+    }
+
     /// Makes one set of two; whether they were two.
     pub fn unite(&mut self, a: u32, b: u32) -> bool {
         let (a, b) = (self.find(a), self.find(b));
