@@ -6,18 +6,20 @@
 
 use super::bvh::hilbert;
 use super::graph::Graph;
-use super::piece::Piece;
 use super::site::{Foot, NONE, Site};
+use crate::geom::Point;
+use std::ops::Range;
 
-/// Where a piece of the boundary begins.
+/// Where a piece of the boundary begins, on one line of memory.
 #[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
 pub(crate) struct Stop {
     pub foot: Foot,
+    /// The center of the disk that touches here.
+    pub center: Point,
     pub site: u32,
     /// The edge on its left, [`NONE`] along the contact arc of a leaf.
     pub edge: u32,
-    /// The disk that touches here.
-    pub disk: u32,
 }
 
 /// The way from a stop along its piece.
@@ -52,11 +54,16 @@ pub(crate) enum After {
     SameSite,
 }
 
+/// Pieces that are fetched side by side: memory is not waited for one by one.
+const AT_A_TIME: usize = 32;
+
 /// A ring of the boundary.
 #[derive(Clone, Debug)]
 pub(crate) struct Ring {
     /// Its stops, without the one at its end.
-    pub stops: std::ops::Range<u32>,
+    pub stops: Range<u32>,
+    /// Its number in the order of first pieces.
+    pub number: u32,
     /// The smallest radius along it.
     pub least: f64,
 }
@@ -69,7 +76,7 @@ pub(crate) struct Circuit {
     pub ways: Vec<Way>,
     /// The radius at each stop.
     pub radii: Vec<f64>,
-    /// In the order of their first pieces.
+    /// In the order of their stops.
     pub rings: Vec<Ring>,
 }
 
@@ -78,7 +85,8 @@ impl Circuit {
         let mut circuit =
             Circuit { stops: Vec::new(), ways: Vec::new(), radii: Vec::new(), rings: Vec::new() };
         let mut stop_of = vec![NONE; graph.pieces.len()];
-        let firsts = ring_firsts(graph);
+        let next: Vec<u32> = graph.pieces.iter().map(|p| p.next).collect();
+        let firsts = ring_firsts(&next);
         let count = graph.pieces.len() + firsts.len();
         circuit.stops.reserve_exact(count);
         circuit.ways.reserve_exact(count);
@@ -90,12 +98,18 @@ impl Circuit {
             let disk = start_disk(graph, start).or_else(|| lone.next()).unwrap_or(NONE);
             [start, disk]
         };
-        let mut starts: Vec<_> = (0usize..).zip(firsts.into_iter().map(start)).collect();
+        let mut starts: Vec<_> = (0u32..).zip(firsts.into_iter().map(start)).collect();
         // What is near is near in memory.
         starts.sort_by_cached_key(|&(_, [start, _])| hilbert(graph.pieces[start as usize].from.point));
-        circuit.rings = vec![Ring { stops: 0..0, least: 0.0 }; starts.len()];
-        for (ring, start) in starts {
-            circuit.rings[ring] = circuit.add_ring(sites, graph, start, &mut stop_of);
+        // The way along a ring leads to and fro; nothing else waits for it.
+        let mut order = Vec::new();
+        for (number, [start, disk]) in starts {
+            order.clear();
+            order.extend(std::iter::successors(Some(start), |&at| {
+                Some(next[at as usize]).filter(|&at| at != start)
+            }));
+            let (stops, least) = circuit.add_ring(sites, graph, &order, disk, &mut stop_of);
+            circuit.rings.push(Ring { stops, number, least });
         }
         for way in circuit.ways.iter_mut().filter(|w| w.has_edge()) {
             way.across = stop_of[way.across as usize];
@@ -104,44 +118,43 @@ impl Circuit {
     }
 
     /// The foot where the piece of a stop ends.
-    pub fn end(&self, sites: &[Site], at: u32) -> Foot {
-        let goes_on = self.ways[at as usize + 1].after == After::SameSite;
-        if goes_on {
-            self.stops[at as usize + 1].foot
-        } else {
-            sites[self.stops[at as usize].site as usize].end
-        }
+    #[inline]
+    pub fn end<'a>(&'a self, sites: &'a [Site], at: u32) -> &'a Foot {
+        let [here, next] = [0, 1].map(|i| &self.stops[at as usize + i]);
+        if here.site == next.site { &next.foot } else { &sites[here.site as usize].end }
     }
 
-    /// Adds the ring that begins with a piece, in a disk.
+    /// Adds the ring of some pieces that begins in a disk; its stops and the smallest radius along it.
     fn add_ring(
         &mut self,
         sites: &[Site],
         graph: &Graph,
-        [start, disk]: [u32; 2],
+        order: &[u32],
+        mut disk: u32,
         stop_of: &mut [u32],
-    ) -> Ring {
+    ) -> (Range<u32>, f64) {
         let begin = self.stops.len() as u32;
-        let (mut at, mut disk) = (start, disk);
         let mut before = NONE;
-        loop {
-            let piece = &graph.pieces[at as usize];
-            let here = &sites[piece.site as usize];
-            let Piece { from, to, .. } = graph.piece(sites, at);
-            let turn = if here.is_straight() { 0.0 } else { from.normal.angle_to(to.normal) };
-            let edge = graph.edges.get(piece.edge as usize);
-            let backward = edge.is_some_and(|e| e.pieces[1] == at);
-            stop_of[at as usize] = self.stops.len() as u32;
-            self.radii.push(graph.disks.get(disk as usize).map_or(0.0, |d| d.radius));
-            let site = piece.site;
-            let across = edge.map_or(NONE, |e| e.pieces[usize::from(!backward)]);
-            let after = after(sites, before, site);
-            self.stops.push(Stop { foot: from, site, edge: piece.edge, disk });
-            self.ways.push(Way { turn, across, after, backward, is_end: false });
-            disk = edge.map_or(disk, |e| e.disks[usize::from(!backward)]);
-            (before, at) = (site, piece.next);
-            if at == start {
-                break;
+        let mut near = Vec::with_capacity(AT_A_TIME);
+        for order in order.chunks(AT_A_TIME) {
+            near.clear();
+            near.extend(order.iter().map(|&at| graph.pieces[at as usize]));
+            for (&at, piece) in order.iter().zip(&near) {
+                let (from, site) = (piece.from, piece.site);
+                let turns = || from.normal.angle_to(graph.piece(sites, at).to.normal);
+                let turn = if sites[site as usize].is_straight() { 0.0 } else { turns() };
+                let edge = graph.edges.get(piece.edge as usize);
+                let backward = edge.is_some_and(|e| e.pieces[1] == at);
+                stop_of[at as usize] = self.stops.len() as u32;
+                let touching = graph.disks.get(disk as usize);
+                let (center, radius) = touching.map_or((from.point, 0.0), |d| (d.center, d.radius));
+                let across = edge.map_or(NONE, |e| e.pieces[usize::from(!backward)]);
+                let after = after(sites, before, site);
+                self.radii.push(radius);
+                self.stops.push(Stop { foot: from, center, site, edge: piece.edge });
+                self.ways.push(Way { turn, across, after, backward, is_end: false });
+                disk = edge.map_or(disk, |e| e.disks[usize::from(!backward)]);
+                before = site;
             }
         }
         let end = self.stops.len() as u32;
@@ -153,7 +166,7 @@ impl Circuit {
         let radii = &self.radii[begin as usize..];
         let least = radii.iter().copied().fold(f64::INFINITY, f64::min);
         self.radii.push(radii[0]);
-        Ring { stops: begin..end, least }
+        (begin..end, least)
     }
 }
 
@@ -166,19 +179,19 @@ fn after(sites: &[Site], before: u32, site: u32) -> After {
 }
 
 /// The piece of the lowest number of every ring.
-fn ring_firsts(graph: &Graph) -> Vec<u32> {
-    let mut seen = vec![false; graph.pieces.len()];
+fn ring_firsts(next: &[u32]) -> Vec<u32> {
+    let mut seen = vec![false; next.len()];
     let mut firsts = Vec::new();
-    for first in 0..graph.pieces.len() as u32 {
+    for first in 0..next.len() as u32 {
         // What stands for a crossing of a link is no piece; nothing leads to it.
-        if seen[first as usize] || graph.pieces[first as usize].next == NONE {
+        if seen[first as usize] || next[first as usize] == NONE {
             continue;
         }
         firsts.push(first);
         let mut at = first;
         while !seen[at as usize] {
             seen[at as usize] = true;
-            at = graph.pieces[at as usize].next;
+            at = next[at as usize];
         }
     }
     firsts

@@ -10,9 +10,10 @@
 //! as beside necks, and where that fails, too, beside ends of edges and between walls nearly parallel,
 //! halving along the longer piece does not fail.
 
+use super::carriers::{Below, Carriers};
 use super::trace::Tracer;
 use crate::geom::{Point, Vector, vector};
-use crate::mat::{Foot, Site, Track, Way, falling_root};
+use crate::mat::{Foot, Site, Track, falling_root};
 
 /// Crossings that are looked for side by side: neither memory nor roots are waited for one by one.
 const AT_A_TIME: usize = 16;
@@ -35,25 +36,39 @@ struct Crossing {
     normals: [Vector; 2],
 }
 
+/// Where to find what is on both sides of an edge.
+struct Seats {
+    /// The stop that it is seen from, and whether its piece runs against the edge.
+    at: u32,
+    backward: bool,
+    stops: [u32; 2],
+    sites: [u32; 2],
+}
+
 /// An edge between the pieces along it and against it, seen from a stop.
-struct Sides {
-    sites: [Site; 2],
+struct Sides<'a> {
+    sites: [&'a Site; 2],
+    carriers: Carriers,
     /// Where the pieces begin and end.
-    feet: [[Foot; 2]; 2],
+    feet: [[&'a Foot; 2]; 2],
     /// Its ends and the radii there.
     ends: [Point; 2],
     radii: [f64; 2],
+    /// How far from either end a place on it can be, but for round-off. The edge turns by a quarter at most,
+    /// so it is nowhere farther from one end than the other end is.
+    longest: f64,
     id: u32,
     stop: u32,
 }
 
-/// Signed distance and unit normal to a carrier, see [`Site::carrier_distance`].
-type Below = (f64, Vector);
-
 /// A place on its way to a crossing.
 struct Approach {
-    center: Point,
-    below: [Below; 2],
+    /// The number of its edge among those that are looked at together.
+    sides: usize,
+    /// The place, and the one that was looked at before or after it.
+    places: [(Point, Below); 2],
+    /// Which of them it is.
+    at: usize,
     /// Whether another step would not help.
     done: bool,
 }
@@ -65,28 +80,32 @@ impl Tracer<'_> {
     /// Where the level crosses the edges of some stops: the same places for their other sides.
     pub fn entries(&self, stops: &[u32]) -> Vec<Entry> {
         let mut entries = Vec::with_capacity(stops.len());
-        let (mut sides, mut approaches) = (Vec::new(), Vec::new());
+        let (mut seats, mut sides, mut found) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut missing, mut approaches) = (Vec::new(), Vec::new());
         for stops in stops.chunks(AT_A_TIME) {
             sides.clear();
-            sides.extend(stops.iter().map(|&at| self.sides(at)));
-            approaches.clear();
-            approaches.extend(sides.iter().map(|sides| self.begun(sides, self.start(sides))));
-            let mut at_work = true;
-            while at_work {
-                at_work = false;
-                for (sides, approach) in sides.iter().zip(&mut approaches).filter(|(_, a)| !a.done) {
-                    self.step(sides, approach);
-                    at_work |= !approach.done;
+            seats.clear();
+            seats.extend(stops.iter().map(|&at| self.seats(at)));
+            sides.extend(seats.iter().map(|seats| self.sides(seats)));
+            found.clear();
+            found.extend(sides.iter().map(|sides| self.between_vertices(sides)));
+            for start in [Tracer::start, Tracer::curved_start] {
+                missing.clear();
+                missing.extend((0..sides.len()).filter(|&i| found[i].is_none()));
+                approaches.clear();
+                let begun = |&i: &usize| self.begun(i, &sides[i], start(self, &sides[i]));
+                approaches.extend(missing.iter().map(begun));
+                self.follow(&sides, &mut approaches);
+                for approach in &approaches {
+                    found[approach.sides] = self.by_newton(&sides[approach.sides], approach);
                 }
             }
-            entries.extend(sides.iter().zip(&approaches).map(|(s, a)| self.entry(s, a)));
+            entries.extend(sides.iter().zip(found.drain(..)).map(|(s, found)| self.entry(s, found)));
         }
         entries
     }
 
-    fn entry(&self, sides: &Sides, approach: &Approach) -> Entry {
-        let found = self.between_vertices(sides).or_else(|| self.by_newton(sides, approach));
-        let found = found.or_else(|| self.by_newton(sides, &self.followed(sides, self.curved_start(sides))));
+    fn entry(&self, sides: &Sides, found: Option<Crossing>) -> Entry {
         let Crossing { center, normals } = found.unwrap_or_else(|| self.by_halving(sides));
         // The radius grows along the piece that enters.
         let inward = usize::from(sides.radii[0] > sides.radii[1]);
@@ -103,21 +122,31 @@ impl Tracer<'_> {
         }
     }
 
-    fn sides(&self, at: u32) -> Sides {
-        let stop = self.stop(at);
-        let &Way { across, backward, .. } = self.way(at);
-        let stops = if backward { [across, at] } else { [at, across] };
-        let feet = stops.map(|s| [self.stop(s).foot, self.circuit.end(&self.mat.sites, s)]);
-        let radii = [stops[0], stops[0] + 1].map(|s| self.circuit.radii[s as usize]);
-        let ends = [stops[0], stops[0] + 1].map(|s| self.mat.graph.disks[self.stop(s).disk as usize].center);
-        Sides { sites: stops.map(|s| *self.site(self.stop(s))), feet, ends, radii, id: stop.edge, stop: at }
+    /// The stops of an edge that a stop begins at, along it and against it, and their sites.
+    #[inline]
+    fn seats(&self, at: u32) -> Seats {
+        let way = self.way(at);
+        let stops = if way.backward { [way.across, at] } else { [at, way.across] };
+        Seats { at, backward: way.backward, stops, sites: stops.map(|s| self.stop(s).site) }
+    }
+
+    fn sides(&self, &Seats { at, backward, stops, sites }: &Seats) -> Sides<'_> {
+        let sites = sites.map(|s| &self.mat.sites[s as usize]);
+        let feet = stops.map(|s| [&self.stop(s).foot, self.circuit.end(&self.mat.sites, s)]);
+        // Its ends as they follow one another along this side.
+        let [from, to] = if backward { [at + 1, at] } else { [at, at + 1] };
+        let radii = [from, to].map(|s| self.circuit.radii[s as usize]);
+        let ends = [from, to].map(|s| self.stop(s).center);
+        let id = self.stop(at).edge;
+        let longest = ends[0].distance(ends[1]) + self.beyond;
+        Sides { sites, carriers: Carriers::of(sites), feet, ends, radii, longest, id, stop: at }
     }
 
     /// The crossing by halving, which does not fail.
     fn by_halving(&self, sides: &Sides) -> Crossing {
         let [a, b] = self.mat.graph.edges[sides.id as usize].pieces;
         let [a, b] = [a, b].map(|p| self.mat.graph.piece(&self.mat.sites, p));
-        let extent = |[from, to]: [Foot; 2]| from.point.distance(to.point);
+        let extent = |[from, to]: [&Foot; 2]| from.point.distance(to.point);
         let swap = extent(sides.feet[1]) > extent(sides.feet[0]);
         let (along, across) = if swap { (&b, &a) } else { (&a, &b) };
         let falls = (sides.radii[0] > sides.radii[1]) != swap;
@@ -128,7 +157,9 @@ impl Tracer<'_> {
             sign * if radius(t).is_finite() { radius(t) - self.d } else { self.d }
         });
         // The place at this distance from the one side is exact; the other's is made so as well.
-        self.followed(sides, track.at(t).center(self.d)).crossing()
+        let mut exact = [self.begun(0, sides, track.at(t).center(self.d))];
+        self.follow(std::slice::from_ref(sides), &mut exact);
+        exact[0].crossing()
     }
 
     /// The crossing between two vertices, on the line halfway between them. They may be the sides of a
@@ -148,13 +179,13 @@ impl Tracer<'_> {
 
     /// The crossing that Newton's method led to, if it is certain to be that.
     fn by_newton(&self, sides: &Sides, approach: &Approach) -> Option<Crossing> {
-        let c = approach.center;
+        let Crossing { center, normals } = approach.crossing();
+        let distances = approach.places[approach.at].1.distances;
         let is_on = |i: usize| {
-            let (distance, normal) = approach.below[i];
-            (distance - self.d).abs() <= RESIDUAL
-                && spans(sides.feet[i], &sides.sites[i], c - normal * distance, normal)
+            (distances[i] - self.d).abs() <= RESIDUAL
+                && spans(sides.feet[i], sides.sites[i], center - normals[i] * distances[i], normals[i])
         };
-        (is_on(0) && is_on(1)).then(|| approach.crossing())
+        (is_on(0) && is_on(1)).then_some(Crossing { center, normals })
     }
 
     /// Where on a straight edge the radius would be `d` if it were steady.
@@ -176,78 +207,83 @@ impl Tracer<'_> {
         from + along * (2.0 * rise / (growth + root))
     }
 
-    /// Whether a place can lie on an edge, but for round-off. The edge turns by a quarter at most, so it
-    /// is nowhere farther from one end than the other end is; and `s` beyond the end of a wall the
-    /// distance to it is no more than `s^2 / 2d` larger.
-    fn may_hold(&self, sides: &Sides, c: Point) -> bool {
-        let [a, b] = sides.ends;
-        let longest = a.distance(b) + (2.0 * self.d * self.mat.graph.error).sqrt();
-        a.distance(c) <= longest && b.distance(c) <= longest
-    }
-
     /// Begins Newton's method.
-    fn begun(&self, sides: &Sides, start: Point) -> Approach {
-        let below = sides.below(start);
-        Approach { center: start, below, done: self.worst(&below) <= f64::EPSILON * self.d }
+    fn begun(&self, number: usize, sides: &Sides, start: Point) -> Approach {
+        let below = sides.carriers.below(start);
+        let places = [(start, below); 2];
+        Approach { sides: number, places, at: 0, done: self.worst(&below) <= f64::EPSILON * self.d }
     }
 
-    /// Newton's method from a place to its end.
-    fn followed(&self, sides: &Sides, start: Point) -> Approach {
-        let mut approach = self.begun(sides, start);
-        while !approach.done {
-            self.step(sides, &mut approach);
+    /// Newton's method for several places to the end of each.
+    fn follow(&self, sides: &[Sides], approaches: &mut [Approach]) {
+        let mut open: [usize; AT_A_TIME] = std::array::from_fn(|i| i);
+        let mut count = approaches.len();
+        while count > 0 {
+            let mut left = 0;
+            for k in 0..count {
+                let approach = &mut approaches[open[k]];
+                if !approach.done {
+                    self.step(&sides[approach.sides], approach);
+                }
+                open[left] = open[k];
+                left += usize::from(!approach.done);
+            }
+            count = left;
         }
-        approach
     }
 
     /// How far a place is off.
     #[inline]
-    fn worst(&self, below: &[Below; 2]) -> f64 {
-        (self.d - below[0].0).abs().max((self.d - below[1].0).abs())
+    fn worst(&self, below: &Below) -> f64 {
+        let [e0, e1] = below.distances.map(|s| (self.d - s).abs());
+        e0.max(e1)
     }
 
     /// Newton's step for a place at distance `d` from two carriers, if it helps. Between walls that are
     /// parallel but for round-off it may lead anywhere along them, and must not leave the edge.
     #[inline]
     fn step(&self, sides: &Sides, approach: &mut Approach) {
-        let [(s0, n0), (s1, n1)] = approach.below;
-        let [e0, e1] = [self.d - s0, self.d - s1];
+        let (center, below) = &approach.places[approach.at];
+        let [n0, n1] = below.normals;
+        let [e0, e1] = below.distances.map(|s| self.d - s);
         let worst = e0.abs().max(e1.abs());
         let det = n0.cross(n1);
         let step = vector((e0 * n1.y - e1 * n0.y) / det, (e1 * n0.x - e0 * n1.x) / det);
-        let mut next = approach.center + step;
+        let mut next = *center + step;
         if step.length_squared() > self.d * worst {
             // A step so long, between circles that hardly cross, leads away from both by more than they
             // are off: back to one of them.
             let (distance, normal) = sides.sites[0].carrier_distance(next);
             next += normal * (self.d - distance);
         }
-        let below = sides.below(next);
+        let below = sides.carriers.below(next);
         let now = self.worst(&below);
-        let converges = now < 0.5 * worst && self.may_hold(sides, next);
-        if converges {
-            (approach.center, approach.below) = (next, below);
-        }
-        approach.done = !converges || now <= f64::EPSILON * self.d;
+        let converges = (now < 0.5 * worst) & sides.may_hold(next);
+        // Nothing is moved, and nothing guessed: the next place has its own place here.
+        approach.places[1 - approach.at] = (next, below);
+        approach.at ^= usize::from(converges);
+        approach.done = !converges | (now <= f64::EPSILON * self.d);
     }
 }
 
-impl Sides {
-    /// What is below a place on either side.
+impl Sides<'_> {
+    /// Whether a place can lie on the edge.
     #[inline]
-    fn below(&self, c: Point) -> [Below; 2] {
-        [self.sites[0].carrier_distance(c), self.sites[1].carrier_distance(c)]
+    fn may_hold(&self, c: Point) -> bool {
+        let [a, b] = self.ends;
+        (a.distance(c) <= self.longest) & (b.distance(c) <= self.longest)
     }
 }
 
 impl Approach {
     fn crossing(&self) -> Crossing {
-        Crossing { center: self.center, normals: self.below.map(|b| b.1) }
+        let (center, Below { normals, .. }) = self.places[self.at];
+        Crossing { center, normals }
     }
 }
 
 /// Whether a foot with its normal lies between the ends of a piece.
-fn spans([from, to]: [Foot; 2], site: &Site, foot: Point, normal: Vector) -> bool {
+fn spans([from, to]: [&Foot; 2], site: &Site, foot: Point, normal: Vector) -> bool {
     if site.is_vertex {
         // The normals round a reflex vertex turn clockwise.
         return from.normal.cross(normal) < 0.0 && normal.cross(to.normal) < 0.0;

@@ -10,6 +10,7 @@
 //! by `d`: an arc of curvature `k` becomes one of `k / (1 - k d)`, a reflex vertex an arc of radius
 //! `d`. The order of walking is that of the axis; nothing is intersected or clipped.
 
+mod carriers;
 mod crossing;
 mod level;
 mod merge;

@@ -76,12 +76,13 @@ impl Tracer<'_> {
         let outside = self.outside_components();
         let mut entries: Vec<&Entry> = self.entries.iter().collect();
         entries.sort_unstable_by_key(|entry| entry.edge);
-        for &Entry { stop, center, .. } in entries {
-            let entering = self.stop(stop);
-            let leaving = self.stop(self.way(stop).across);
+        for &Entry { stop, edge, center, .. } in entries {
+            let (entering, way) = (self.stop(stop), self.way(stop));
+            let leaving = self.stop(way.across);
             let [to, from] = [leaving, entering].map(|stop| self.foot_below(stop, center).normal);
             let arc = Facing { center, from: (-to.y).atan2(-to.x), sweep: facing_turn(to, from) };
-            place_of.entry(outside[entering.disk as usize]).or_default().push(arc);
+            let lower = self.mat.graph.edges[edge as usize].disks[usize::from(way.backward)];
+            place_of.entry(outside[lower as usize]).or_default().push(arc);
         }
         place_of.values().map(|arcs| overlap(arcs, self.d, self.mat.graph.error)).sum()
     }

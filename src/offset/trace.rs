@@ -2,7 +2,7 @@
 
 use super::crossing::Entry;
 use crate::geom::Point;
-use crate::mat::{After, Circuit, Foot, Mat, NONE, Ring, Site, Stop, Way};
+use crate::mat::{After, Circuit, Foot, Mat, Ring, Site, Stop, Way};
 
 /// A stretch of the boundary whose offset is part of the level set, within one element or vertex.
 #[derive(Clone, Copy, Debug)]
@@ -23,6 +23,9 @@ pub(super) struct Tracer<'a> {
     pub mat: &'a Mat,
     pub d: f64,
     pub circuit: &'a Circuit,
+    /// How far beyond the ends of an edge its level may be found: `s` beyond the end of a wall the distance to it
+    /// is no more than `s^2 / 2d` larger.
+    pub beyond: f64,
     /// Where the level goes into the inside, in the order of the boundary.
     pub entries: Vec<Entry>,
     /// The numbers of entries by their stops.
@@ -42,7 +45,8 @@ impl<'a> Tracer<'a> {
         edges_at.sort_unstable();
         edges_at.dedup();
         let ranks = Ranks::of(&stops);
-        let mut tracer = Tracer { mat, d, circuit, entries: Vec::new(), ranks, edges_at };
+        let beyond = (2.0 * d * mat.graph.error).sqrt();
+        let mut tracer = Tracer { mat, d, circuit, beyond, entries: Vec::new(), ranks, edges_at };
         tracer.entries = tracer.entries(&stops);
         tracer
     }
@@ -83,24 +87,25 @@ impl<'a> Tracer<'a> {
     /// ids of the first edges that walks cross.
     pub fn walks<T>(&self, mut make: impl FnMut(&[Stretch]) -> Option<T>) -> Vec<T> {
         let mut walk = Vec::new();
-        let mut made = Vec::new();
+        let mut whole = Vec::new();
         for ring in self.circuit.rings.iter().filter(|ring| self.is_larger(ring.least)) {
             walk.clear();
             self.whole_ring(ring, &mut walk);
-            made.extend(make(&walk));
+            whole.extend(make(&walk).map(|made| (ring.number, made)));
         }
+        whole.sort_unstable_by_key(|&(number, _)| number);
+        let runs = self.runs();
         let mut around = Vec::new();
         let mut done = vec![false; self.entries.len()];
         for first in 0..self.entries.len() {
             if !done[first] {
                 walk.clear();
-                let first_edge = self.walk_from(first, &mut done, &mut walk);
+                let first_edge = runs.walk_from(first, &mut done, &mut walk);
                 around.extend(make(&walk).map(|made| (first_edge, made)));
             }
         }
         around.sort_unstable_by_key(|&(edge, _)| edge);
-        made.extend(around.into_iter().map(|(_, made)| made));
-        made
+        whole.into_iter().chain(around).map(|(_, made)| made).collect()
     }
 
     /// A ring of the boundary that is inside all along.
@@ -110,31 +115,25 @@ impl<'a> Tracer<'a> {
         }
     }
 
-    /// The walk that begins with an entry, turned so that it begins at the crossed edge of the lowest id,
-    /// which is returned.
-    fn walk_from(&self, first: usize, done: &mut [bool], walk: &mut Vec<Stretch>) -> u32 {
-        let mut at_entry = first;
-        let (mut lowest, mut begin) = (NONE, 0);
-        loop {
-            done[at_entry] = true;
-            let Entry { stop, edge, center: start, entering: turn, .. } = self.entries[at_entry];
-            if edge < lowest {
-                (lowest, begin) = (edge, walk.len());
-            }
-            walk.push(Stretch { first: stop, last: stop, turn, start, at_crossing: true });
+    /// The runs from all entries.
+    fn runs(&self) -> Runs {
+        let mut stretches = Vec::with_capacity(2 * self.entries.len());
+        let run = |entry: &Entry| {
+            let begin = stretches.len() as u32;
+            let &Entry { stop, edge, center: start, entering: turn, .. } = entry;
+            stretches.push(Stretch { first: stop, last: stop, turn, start, at_crossing: true });
             // Along the boundary until the level crosses an edge again, going out.
             let mut at = self.following(stop);
             while self.is_larger(self.circuit.radii[at as usize + 1]) {
-                self.add(walk, at, self.way(at).turn);
+                self.add(&mut stretches, at, self.way(at).turn);
                 at = self.following(at);
             }
-            at_entry = self.ranks.rank(self.way(at).across);
-            self.add(walk, at, self.entries[at_entry].leaving);
-            if at_entry == first {
-                walk.rotate_left(begin);
-                return lowest;
-            }
-        }
+            let next = self.ranks.rank(self.way(at).across);
+            self.add(&mut stretches, at, self.entries[next].leaving);
+            Run { begin, end: stretches.len() as u32, next: next as u32, edge }
+        };
+        let runs = self.entries.iter().map(run).collect();
+        Runs { runs, stretches }
     }
 
     /// The stop that follows on the boundary.
@@ -174,7 +173,7 @@ impl<'a> Tracer<'a> {
         if next.at_crossing {
             self.foot_below(self.stop(stretch.last), next.start)
         } else {
-            self.circuit.end(&self.mat.sites, stretch.last)
+            *self.circuit.end(&self.mat.sites, stretch.last)
         }
     }
 
@@ -183,6 +182,51 @@ impl<'a> Tracer<'a> {
     pub fn foot_below(&self, stop: &Stop, crossing: Point) -> Foot {
         let (distance, normal) = self.site(stop).carrier_distance(crossing);
         Foot { point: crossing - normal * distance, normal }
+    }
+}
+
+/// What the level follows of the boundary from one crossing to the next.
+struct Run {
+    /// Its stretches.
+    begin: u32,
+    end: u32,
+    /// The run that follows it in the level.
+    next: u32,
+    /// The edge that it begins at.
+    edge: u32,
+}
+
+/// All runs of a level in the order of the boundary, so that memory is read from one end to the other; only
+/// then are they linked.
+struct Runs {
+    runs: Vec<Run>,
+    stretches: Vec<Stretch>,
+}
+
+impl Runs {
+    /// The walk that a run is part of. It begins at the crossed edge of the lowest id, which is returned.
+    fn walk_from(&self, first: usize, done: &mut [bool], walk: &mut Vec<Stretch>) -> u32 {
+        let mut lowest = first;
+        let mut at = first;
+        loop {
+            done[at] = true;
+            if self.runs[at].edge < self.runs[lowest].edge {
+                lowest = at;
+            }
+            at = self.runs[at].next as usize;
+            if at == first {
+                break;
+            }
+        }
+        at = lowest;
+        loop {
+            let Run { begin, end, next, .. } = self.runs[at];
+            walk.extend_from_slice(&self.stretches[begin as usize..end as usize]);
+            at = next as usize;
+            if at == lowest {
+                return self.runs[lowest].edge;
+            }
+        }
     }
 }
 
