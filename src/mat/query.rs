@@ -54,7 +54,10 @@ impl Mat {
         let mut clear = true;
         let around = SearchDisk { center: inside.point_at(0.5), radius: reach };
         self.bvh.search(around, |i| {
-            clear &= gap(&inside, &self.sites[i as usize]) >= needed;
+            let site = &self.sites[i as usize];
+            // In a pocket that is nearly round many boxes are in reach, and few sites.
+            let is_out_of_reach = site.distance(around.center) > reach;
+            clear &= is_out_of_reach || gap(&inside, site) >= needed;
             // Once something is in the way there is nothing left to search.
             (!clear).then_some(SearchDisk { center: around.center, radius: 0.0 })
         });

@@ -197,12 +197,10 @@ impl Beside<'_> {
     fn full_width(&self, t: [f64; 2]) -> Option<(usize, f64)> {
         let d = self.reach.levels[self.level].distance;
         let sides = [0, 1].map(|side| self.roads.offset(self.edge, side, t, d));
-        let inner = self.trees.get(self.level + 1).filter(|tree| tree.size() > 0);
-        let is_far = |p: Point| {
-            let nearest = inner.and_then(|tree| tree.nearest_neighbor(&[p.x, p.y]));
-            nearest.is_none_or(|n| n.element.distance(p) >= self.job.tool)
-        };
-        let lengths = sides.map(|e| full_length(&e, self.job.radius() / PIECES, self.job.tool, is_far));
+        let inner = self.trees.get(self.level + 1);
+        let is_beside =
+            |p: Point, near: f64, far: f64| inner.map_or(Some(false), |tree| side(tree, p, near, far));
+        let lengths = sides.map(|e| full_length(&e, self.job.radius() / PIECES, self.job.tool, is_beside));
         if lengths == [0.0; 2] {
             return None;
         }
@@ -222,18 +220,56 @@ impl Beside<'_> {
     }
 }
 
-/// How much of an element is far from all that is cut, looked at in pieces; `tool` is the distance.
-fn full_length(e: &Element, piece: f64, tool: f64, is_far: impl Fn(Point) -> bool) -> f64 {
+/// Whether something is nearer to a place than `near`, or nothing nearer than `far`; `None` for neither.
+fn side(tree: &RTree<Indexed>, p: Point, near: f64, far: f64) -> Option<bool> {
+    let mut answer = Some(false);
+    // What is nearest may be at the other end of the pocket: only what is within reach is looked at.
+    for found in tree.locate_within_distance([p.x, p.y], far * far) {
+        let distance = found.element.distance(p);
+        if distance < near {
+            return Some(true);
+        }
+        if distance < far {
+            answer = None;
+            if near <= 0.0 {
+                break;
+            }
+        }
+    }
+    answer
+}
+
+/// How much of an element is as far as `tool` from all that is cut, looked at in pieces. `is_beside` tells
+/// whether something is nearer to a place than one distance, or nothing nearer than another.
+fn full_length(
+    e: &Element,
+    piece: f64,
+    tool: f64,
+    is_beside: impl Fn(Point, f64, f64) -> Option<bool>,
+) -> f64 {
     let length = e.length();
     if !length.is_finite() || length == 0.0 {
         return 0.0;
     }
     // All of a short element is near where one place of it is very near.
-    if length <= tool && !is_far(e.start) && !is_far(e.end) && !is_far(e.midpoint()) {
+    let is_near = |p: Point| is_beside(p, tool, tool) == Some(true);
+    if length <= tool && is_near(e.start) && is_near(e.end) && is_near(e.midpoint()) {
         return 0.0;
     }
     let count = (length / piece).ceil().clamp(1.0, MAX_PIECES);
-    let far = (0..count as u64).filter(|&i| is_far(e.point_at((i as f64 + 0.5) / count))).count();
+    let mut far = 0;
+    // What holds of one piece by some length more holds of all pieces within that length.
+    let mut open = vec![(0, count as u64)];
+    while let Some((first, end)) = open.pop() {
+        let middle = first + (end - first) / 2;
+        let around = if end - first > 1 { 0.5 * (end - first + 1) as f64 * (length / count) } else { 0.0 };
+        let p = e.point_at((middle as f64 + 0.5) / count);
+        match is_beside(p, tool - around, tool + around) {
+            Some(true) => {}
+            None if end - first > 1 => open.extend([(first, middle), (middle, end)]),
+            _ => far += end - first,
+        }
+    }
     length * far as f64 / count
 }
 
@@ -245,9 +281,14 @@ mod tests {
     #[test]
     fn of_an_element_counts_what_is_far_from_all_that_is_cut() {
         let e = Element::segment(point(0.0, 0.0), point(10.0, 0.0));
-        let far = |p: Point| p.x >= 4.0;
-        assert!((full_length(&e, 0.5, 6.0, far) - 6.0).abs() <= 0.5);
-        assert_eq!(full_length(&e, 0.5, 6.0, |_| false), 0.0);
-        assert_eq!(full_length(&e, 0.5, 6.0, |_| true), 10.0);
+        // Cut is all beyond 2 on the left.
+        let beside = |p: Point, near: f64, far: f64| match p.x + 2.0 {
+            distance if distance < near => Some(true),
+            distance if distance < far => None,
+            _ => Some(false),
+        };
+        assert!((full_length(&e, 0.5, 6.0, beside) - 6.0).abs() <= 0.5);
+        assert_eq!(full_length(&e, 0.5, 6.0, |_, _, _| Some(true)), 0.0);
+        assert_eq!(full_length(&e, 0.5, 6.0, |_, _, _| Some(false)), 10.0);
     }
 }
