@@ -15,8 +15,9 @@ use crate::geom::{Element, Point};
 const LINK_FLATNESS: f64 = 1.0 / 64.0;
 
 /// How many times longer than lifting the tool a link at depth may take: each time that the tool gets
-/// down it leaves a mark, and machines lift more slowly than they say.
-const STAY_DOWN: f64 = 3.0;
+/// down it leaves a mark, and machines lift more slowly than they say. With 3 some plates of the drawings
+/// tried lifted it more often than they have peaks; staying down there takes a fortieth more time.
+const STAY_DOWN: f64 = 12.0;
 
 /// A way down beside a pass, into a neighbor that is cut already, and straight over from there.
 struct Approach {
