@@ -27,7 +27,7 @@ fn every_axis_and_level_of_nearly_degenerate_families_is_right() {
 
 /// Pockets whose axis was wrong once: chords of different disks that crossed, hair-thin necks, flat corners
 /// where a reach goes from nothing to infinity within roundings, circles in hundreds of arcs.
-const ONCE_WRONG: [(&str, u64); 23] = [
+const ONCE_WRONG: [(&str, u64); 26] = [
     ("circle", 5094),
     ("circle", 5356),
     ("circle", 10916),
@@ -42,13 +42,16 @@ const ONCE_WRONG: [(&str, u64); 23] = [
     ("smooth", 5248),
     ("smooth", 5316),
     ("smooth", 10081),
+    ("smooth", 10253),
     ("smooth", 10580),
     ("smooth", 10614),
     ("smooth", 11172),
+    ("smooth", 13471),
     ("smooth", 13539),
     ("smooth", 14453),
     ("smooth", 14488),
     ("smooth", 15172),
+    ("smooth", 15557),
     ("smooth", 17899),
     ("spiral", 11355),
 ];

@@ -316,8 +316,22 @@ pub(super) fn common_reach(sites: &[Site], track: &Track<'_>, t: f64, pieces: [&
     JUMP_ROUNDINGS
         .iter()
         .find_map(|roundings| steadier(t, roundings * f64::EPSILON, [a, b], reach))
-        // Neither gets past the other: the parameter is at an end, and the smaller holds the disk back.
-        .unwrap_or(a.min(b))
+        .unwrap_or_else(|| less_wrong(sites, &track.at(t), pieces, [a, b]))
+}
+
+/// Of two reaches that do not get past each other the one whose disk is less wrong. The smaller disk does not
+/// come near the other piece where the parameter is at an end, and holds the disk back there; the larger one
+/// reaches over the first piece, but by next to nothing where an arc next to a flat corner has a center that
+/// is not known as well as its places.
+fn less_wrong(sites: &[Site], probe: &Probe, pieces: [&Piece; 2], reaches: [f64; 2]) -> f64 {
+    let (small, large) = (reaches[0].min(reaches[1]), reaches[0].max(reaches[1]));
+    let [at_small, at_large] = if reaches[0] <= reaches[1] { pieces } else { [pieces[1], pieces[0]] };
+    let off = |p: &Piece, radius: f64| {
+        let part = Site { start: p.from, end: p.to, ..sites[p.site as usize] };
+        (part.distance(probe.center(radius)) - radius).abs()
+    };
+    let is_large_better = large.is_finite() && off(at_small, large) < off(at_large, small);
+    if is_large_better { large } else { small }
 }
 
 /// Roundings of a parameter within which a reach may go back and forth where it jumps, one number after the other.
