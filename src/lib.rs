@@ -109,7 +109,9 @@ pub mod verify;
 pub use boundary::{Curve, FreeCurve, FreeShape, Pocket, Pockets, Source};
 pub use error::{Defect, Error};
 pub use geom::{ArcSpline, Bounds, Element, Ellipse, Point, Spline, Vector, Vertex, point, vector};
-pub use mat::{AxisEdge, AxisVertex, Counts, Disk, Kind, Mat, Mismatch, Residuals, SiteKind, SiteRef};
+pub use mat::{
+    AxisEdge, AxisVertex, Counts, Disk, Kind, Mat, Mismatch, Residuals, SiteKind, SiteRef, Stages,
+};
 pub use offset::{Exterior, Level, LevelSets, MergeTree, Part};
 pub use tolerance::{Tolerance, Units};
 pub use toolpath::{

@@ -40,6 +40,7 @@ mod shot;
 mod site;
 mod sites;
 mod splice;
+mod stages;
 #[cfg(test)]
 mod tests;
 mod ties;
@@ -50,6 +51,7 @@ mod union;
 mod vertex;
 
 pub use check::Residuals;
+pub use stages::Stages;
 pub use transform::{Counts, Mat, Mismatch};
 pub use vertex::{AxisEdge, AxisVertex, Disk, Kind, SiteKind, SiteRef};
 

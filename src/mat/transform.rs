@@ -12,6 +12,7 @@ use super::radii::Radii;
 use super::shot::shoot_all;
 use super::site::{NONE, Site};
 use super::sites::Sites;
+use super::stages::{Laps, Stages};
 use super::{AxisEdge, AxisVertex, Disk};
 use crate::boundary::Pocket;
 use crate::error::Error;
@@ -33,6 +34,7 @@ pub struct Mat {
     pub(super) parts: usize,
     /// Largest angle at a joint that was taken for round-off.
     pub(super) blur: f64,
+    stages: Stages,
     radii: OnceLock<Radii>,
 }
 
@@ -101,8 +103,8 @@ impl Pocket {
         let mut failure = None;
         for angle in DIRECTIONS {
             match laminate(self, &frame, Vector::from_angle(angle)) {
-                Ok((all, bvh, map, union)) => {
-                    let mat = || Mat::build(frame, all, bvh, map);
+                Ok((all, bvh, map, union, stages)) => {
+                    let mat = || Mat::build(frame, all, bvh, map, stages);
                     if union.0 <= UNION_ERROR {
                         return Ok(mat());
                     }
@@ -123,13 +125,17 @@ impl Pocket {
     }
 }
 
-type Laminated = (Sites, Bvh, Lamination, (f64, Point));
+type Laminated = (Sites, Bvh, Lamination, (f64, Point), Stages);
 
 /// Sites, shots and map for one direction of links; the place of a shot into nothing otherwise.
 fn laminate(pocket: &Pocket, frame: &Frame, direction: Vector) -> Result<Laminated, Point> {
+    let (mut laps, mut stages) = (Laps::start(), Stages::default());
     let all = Sites::of(pocket, frame, direction);
+    stages.sites = laps.lap();
     let bvh = Bvh::sorted(&all.sites.iter().map(Site::bounds).collect::<Vec<_>>());
+    stages.boxes = laps.lap();
     let shots = shoot_all(&all.sites, &bvh, all.blur);
+    stages.shots = laps.lap();
     let lost =
         (0..shots.len()).find(|&i| shots[i].site == NONE && all.sites[i].joint != super::site::Joint::Convex);
     if let Some(i) = lost {
@@ -138,15 +144,19 @@ fn laminate(pocket: &Pocket, frame: &Frame, direction: Vector) -> Result<Laminat
     let map = Lamination::of(&all, &shots, Doubt::of(frame.noise, all.blur))
         .ok_or_else(|| all.sites.first().map_or(Point::default(), |s| s.end.point))?;
     let union = map.widest_union;
-    Ok((all, bvh, map, union))
+    stages.map = laps.lap();
+    Ok((all, bvh, map, union, stages))
 }
 
 impl Mat {
-    pub(super) fn build(frame: Frame, all: Sites, bvh: Bvh, map: Lamination) -> Mat {
+    pub(super) fn build(frame: Frame, all: Sites, bvh: Bvh, map: Lamination, stages: Stages) -> Mat {
+        let mut laps = Laps::start();
         let parts = map.parts(&all);
         let mut graph = Graph::of(&all.sites, map, DISK_ROUNDINGS * frame.noise);
+        let faces = laps.lap();
         graph.contract();
-        Mat::of_graph(frame, all, bvh, graph, parts)
+        let mat = Mat::of_graph(frame, all, bvh, graph, parts);
+        Mat { stages: Stages { faces, graph: laps.lap(), ..stages }, ..mat }
     }
 
     /// The transform whose vertices and edges are those of a graph of contracted edges in so many parts.
@@ -155,8 +165,8 @@ impl Mat {
         graph.split_at_extrema(&all.sites);
         graph.shrink();
         let kinds = Kinds::of(&graph);
-        let (sites, blur, radii) = (all.sites, all.blur, OnceLock::new());
-        Mat { frame, sites, bvh, graph, kinds, islands, parts, blur, radii }
+        let (sites, blur, stages, radii) = (all.sites, all.blur, Stages::default(), OnceLock::new());
+        Mat { frame, sites, bvh, graph, kinds, islands, parts, blur, stages, radii }
     }
 
     /// The index by radius, made when the first level asks for it.
@@ -189,6 +199,11 @@ impl Mat {
     /// How much there is of everything.
     pub fn counts(&self) -> Counts {
         Counts { sites: self.sites.len(), vertices: self.graph.disks.len(), edges: self.graph.edges.len() }
+    }
+
+    /// How long each stage took.
+    pub fn stages(&self) -> Stages {
+        self.stages
     }
 
     /// The disk of a vertex, in job units.

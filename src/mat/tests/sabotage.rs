@@ -8,6 +8,7 @@ use crate::mat::frame::Frame;
 use crate::mat::lamination::Lamination;
 use crate::mat::shot::{Shot, shoot_all};
 use crate::mat::sites::Sites;
+use crate::mat::stages::Stages;
 use crate::mat::touch::Contact;
 use crate::mat::{Mat, NONE, Site};
 use crate::tolerance::Tolerance;
@@ -65,7 +66,7 @@ fn built(pocket: &Pocket, meddle: impl FnOnce(&mut Sites, &mut [Shot])) -> Optio
     let mut shots = shoot_all(&all.sites, &bvh, all.blur);
     meddle(&mut all, &mut shots);
     let map = Lamination::of(&all, &shots, Doubt::of(frame.noise, all.blur))?;
-    Some(Mat::build(frame, all, bvh, map))
+    Some(Mat::build(frame, all, bvh, map, Stages::default()))
 }
 
 /// Breaks the axis of every pocket in as many ways as there are, and demands that each is seen.
