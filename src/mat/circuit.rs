@@ -6,6 +6,7 @@
 
 use super::bvh::hilbert;
 use super::graph::Graph;
+use super::leg::{After, Leg};
 use super::site::{Foot, NONE, Site};
 use crate::geom::Point;
 use std::ops::Range;
@@ -20,6 +21,8 @@ pub(crate) struct Stop {
     pub site: u32,
     /// The edge on its left, [`NONE`] along the contact arc of a leaf.
     pub edge: u32,
+    /// The leg that it is on.
+    pub leg: u32,
 }
 
 /// The way from a stop along its piece.
@@ -45,23 +48,14 @@ impl Way {
     }
 }
 
-/// What a piece has in common with the one before it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum After {
-    OtherSource,
-    /// Another site of the same element or vertex of the drawing.
-    SameSource,
-    SameSite,
-}
-
 /// Pieces that are fetched side by side: memory is not waited for one by one.
 const AT_A_TIME: usize = 32;
 
 /// A ring of the boundary.
 #[derive(Clone, Debug)]
 pub(crate) struct Ring {
-    /// Its stops, without the one at its end.
-    pub stops: Range<u32>,
+    /// Its legs, without what stands for its end.
+    pub legs: Range<u32>,
     /// Its number in the order of first pieces.
     pub number: u32,
     /// The smallest radius along it.
@@ -76,21 +70,25 @@ pub(crate) struct Circuit {
     pub ways: Vec<Way>,
     /// The radius at each stop.
     pub radii: Vec<f64>,
+    /// Ring by ring, and what stands for its end.
+    pub legs: Vec<Leg>,
     /// In the order of their stops.
     pub rings: Vec<Ring>,
 }
 
 impl Circuit {
     pub fn of(sites: &[Site], graph: &Graph) -> Circuit {
-        let mut circuit =
-            Circuit { stops: Vec::new(), ways: Vec::new(), radii: Vec::new(), rings: Vec::new() };
         let mut stop_of = vec![NONE; graph.pieces.len()];
         let next: Vec<u32> = graph.pieces.iter().map(|p| p.next).collect();
         let firsts = ring_firsts(&next);
         let count = graph.pieces.len() + firsts.len();
-        circuit.stops.reserve_exact(count);
-        circuit.ways.reserve_exact(count);
-        circuit.radii.reserve_exact(count);
+        let mut circuit = Circuit {
+            stops: Vec::with_capacity(count),
+            ways: Vec::with_capacity(count),
+            radii: Vec::with_capacity(count),
+            legs: Vec::with_capacity(sites.len() + firsts.len()),
+            rings: Vec::with_capacity(firsts.len()),
+        };
         let mut lone = graph.lone_disks().into_iter();
         let start = |first| {
             let start = site_start(graph, first);
@@ -108,8 +106,10 @@ impl Circuit {
             order.extend(std::iter::successors(Some(start), |&at| {
                 Some(next[at as usize]).filter(|&at| at != start)
             }));
-            let (stops, least) = circuit.add_ring(sites, graph, &order, disk, &mut stop_of);
-            circuit.rings.push(Ring { stops, number, least });
+            let legs = circuit.add_ring(sites, graph, &order, disk, &mut stop_of);
+            let least = circuit.legs[legs.start as usize..legs.end as usize].iter().map(|leg| leg.least);
+            let least = least.fold(f64::INFINITY, f64::min);
+            circuit.rings.push(Ring { legs, number, least });
         }
         for way in circuit.ways.iter_mut().filter(|w| w.has_edge()) {
             way.across = stop_of[way.across as usize];
@@ -124,7 +124,7 @@ impl Circuit {
         if here.site == next.site { &next.foot } else { &sites[here.site as usize].end }
     }
 
-    /// Adds the ring of some pieces that begins in a disk; its stops and the smallest radius along it.
+    /// Adds the ring of some pieces that begins in a disk; its legs.
     fn add_ring(
         &mut self,
         sites: &[Site],
@@ -132,8 +132,8 @@ impl Circuit {
         order: &[u32],
         mut disk: u32,
         stop_of: &mut [u32],
-    ) -> (Range<u32>, f64) {
-        let begin = self.stops.len() as u32;
+    ) -> Range<u32> {
+        let (begin, first_leg) = (self.stops.len() as u32, self.legs.len() as u32);
         let mut before = NONE;
         let mut near = Vec::with_capacity(AT_A_TIME);
         for order in order.chunks(AT_A_TIME) {
@@ -145,28 +145,43 @@ impl Circuit {
                 let turn = if sites[site as usize].is_straight() { 0.0 } else { turns() };
                 let edge = graph.edges.get(piece.edge as usize);
                 let backward = edge.is_some_and(|e| e.pieces[1] == at);
-                stop_of[at as usize] = self.stops.len() as u32;
+                let stop = self.stops.len() as u32;
+                stop_of[at as usize] = stop;
                 let touching = graph.disks.get(disk as usize);
                 let (center, radius) = touching.map_or((from.point, 0.0), |d| (d.center, d.radius));
                 let across = edge.map_or(NONE, |e| e.pieces[usize::from(!backward)]);
                 let after = after(sites, before, site);
+                match self.legs.last_mut() {
+                    Some(leg) if after.goes_on(leg.turn, turn) => leg.add(turn, radius),
+                    _ => self.legs.push(Leg::begun(from, turn, radius, stop)),
+                }
+                let leg = self.legs.len() as u32 - 1;
                 self.radii.push(radius);
-                self.stops.push(Stop { foot: from, center, site, edge: piece.edge });
+                self.stops.push(Stop { foot: from, center, site, edge: piece.edge, leg });
                 self.ways.push(Way { turn, across, after, backward, is_end: false });
                 disk = edge.map_or(disk, |e| e.disks[usize::from(!backward)]);
                 before = site;
             }
         }
-        let end = self.stops.len() as u32;
+        self.end_ring(sites, begin, before);
+        let end = self.legs.len() as u32;
+        let first = self.stops[begin as usize].foot;
+        self.legs.push(Leg::end(first, self.stops.len() as u32 - 1));
+        for leg in first_leg as usize..end as usize {
+            let to = self.legs[leg + 1].first;
+            self.legs[leg].close(self.radii[to as usize]);
+        }
+        first_leg..end
+    }
+
+    /// Adds the stop at the end of the ring that begins at a stop, after a piece of some site.
+    fn end_ring(&mut self, sites: &[Site], begin: u32, before: u32) {
         let first = self.stops[begin as usize];
         let after = after(sites, before, first.site);
         self.ways[begin as usize].after = after;
         self.stops.push(first);
         self.ways.push(Way { turn: 0.0, across: begin, after, backward: false, is_end: true });
-        let radii = &self.radii[begin as usize..];
-        let least = radii.iter().copied().fold(f64::INFINITY, f64::min);
-        self.radii.push(radii[0]);
-        (begin..end, least)
+        self.radii.push(self.radii[begin as usize]);
     }
 }
 

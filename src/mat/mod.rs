@@ -11,7 +11,7 @@
 //! each hole (`sites`, `shot`); their chords, which do not cross (`apart`), cut the pocket into faces
 //! (`lamination`); a face of two pieces is an edge, larger ones are divided by branch disks (`face`);
 //! edges without length are contracted and the others split where the radius has an extremum (`graph`).
-//! Levels follow the boundary in the order of memory (`circuit`).
+//! Levels follow the boundary in the order of memory (`circuit`), arc by arc (`leg`).
 //!
 //! After Aichholzer, Aigner, Aurenhammer, Hackl, Juettler, Rabl: *Medial axis computation for planar
 //! free-form shapes*, Computer-Aided Design 41 (2009), whose recursion it unrolls.
@@ -31,6 +31,7 @@ mod frame;
 mod graph;
 mod kinds;
 mod lamination;
+mod leg;
 mod patch;
 mod piece;
 mod query;
@@ -55,7 +56,8 @@ pub use stages::Stages;
 pub use transform::{Counts, Mat, Mismatch};
 pub use vertex::{AxisEdge, AxisVertex, Disk, Kind, SiteKind, SiteRef};
 
-pub(crate) use circuit::{After, Circuit, Ring, Stop, Way};
+pub(crate) use circuit::{Circuit, Ring, Stop, Way};
+pub(crate) use leg::{After, Leg, bulge_of};
 pub(crate) use root::falling_root;
 pub(crate) use site::{Foot, NONE, Site};
 pub(crate) use track::Track;

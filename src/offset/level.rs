@@ -69,8 +69,8 @@ impl Tracer<'_> {
         for (stretch, end) in walk.iter().zip(ends) {
             // An element as short as round-off has no direction; its neighbors meet without it.
             if stretch.start.distance(end) > self.mat.graph.error {
-                let bulge = if stretch.turn == 0.0 { 0.0 } else { (0.25 * stretch.turn).tan() };
-                vertices.push(Vertex { point: self.mat.frame.leave(stretch.start), bulge });
+                let point = self.mat.frame.leave(stretch.start);
+                vertices.push(Vertex { point, bulge: stretch.bulge });
             }
         }
         (vertices.len() >= 2).then_some(ArcSpline { vertices, closed: true })

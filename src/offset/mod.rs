@@ -17,6 +17,7 @@ mod merge;
 mod outward;
 mod reach;
 mod ridge;
+mod runs;
 mod sets;
 mod trace;
 mod united;

@@ -59,7 +59,7 @@ impl Tracer<'_> {
         for (stretch, next) in walk.iter().zip(nexts) {
             if !self.site(self.stop(stretch.last)).is_vertex {
                 let point = self.from(stretch).point;
-                vertices.push(Vertex { point, bulge: (0.25 * stretch.turn).tan() });
+                vertices.push(Vertex { point, bulge: stretch.bulge });
             }
             if next.at_crossing {
                 let to = self.to(stretch, next);

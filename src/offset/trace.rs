@@ -1,8 +1,9 @@
 //! Walking around what lies farther from the boundary than a distance.
 
 use super::crossing::Entry;
+use super::runs::Runs;
 use crate::geom::Point;
-use crate::mat::{After, Circuit, Foot, Mat, Ring, Site, Stop, Way};
+use crate::mat::{Circuit, Foot, Leg, Mat, Ring, Site, Stop, Way};
 
 /// A stretch of the boundary whose offset is part of the level set, within one element or vertex.
 #[derive(Clone, Copy, Debug)]
@@ -10,8 +11,8 @@ pub(super) struct Stretch {
     /// The stops of its first and last piece.
     pub first: u32,
     pub last: u32,
-    /// Angle by which the normal turns along it, counter-clockwise positive.
-    pub turn: f64,
+    /// Bulge of its offset.
+    pub bulge: f64,
     /// Where its offset begins.
     pub start: Point,
     /// Whether it begins on the axis, at a crossing with another stretch.
@@ -29,7 +30,7 @@ pub(super) struct Tracer<'a> {
     /// Where the level goes into the inside, in the order of the boundary.
     pub entries: Vec<Entry>,
     /// The numbers of entries by their stops.
-    ranks: Ranks,
+    pub ranks: Ranks,
     /// The edges with an end that is as far away as `d`, in order of id.
     pub edges_at: Vec<u32>,
 }
@@ -53,7 +54,7 @@ impl<'a> Tracer<'a> {
 
     /// Whether a radius is larger than `d` by more than round-off.
     #[inline]
-    fn is_larger(&self, radius: f64) -> bool {
+    pub fn is_larger(&self, radius: f64) -> bool {
         radius > self.d + self.mat.graph.error
     }
 
@@ -85,81 +86,44 @@ impl<'a> Tracer<'a> {
 
     /// What is made of each closed walk, in the order of the rings that are inside all along, then of the
     /// ids of the first edges that walks cross.
-    pub fn walks<T>(&self, mut make: impl FnMut(&[Stretch]) -> Option<T>) -> Vec<T> {
+    pub fn walks<T: Default>(&self, mut make: impl FnMut(&[Stretch]) -> Option<T>) -> Vec<T> {
         let mut walk = Vec::new();
-        let mut whole = Vec::new();
+        let (mut whole, mut around) = (InOrder::new(), InOrder::new());
         for ring in self.circuit.rings.iter().filter(|ring| self.is_larger(ring.least)) {
             walk.clear();
             self.whole_ring(ring, &mut walk);
-            whole.extend(make(&walk).map(|made| (ring.number, made)));
+            whole.add(ring.number, make(&walk));
         }
-        whole.sort_unstable_by_key(|&(number, _)| number);
-        let runs = self.runs();
-        let mut around = Vec::new();
+        let runs = Runs::of(self);
         let mut done = vec![false; self.entries.len()];
         for first in 0..self.entries.len() {
             if !done[first] {
                 walk.clear();
                 let first_edge = runs.walk_from(first, &mut done, &mut walk);
-                around.extend(make(&walk).map(|made| (first_edge, made)));
+                around.add(first_edge, make(&walk));
             }
         }
-        around.sort_unstable_by_key(|&(edge, _)| edge);
-        whole.into_iter().chain(around).map(|(_, made)| made).collect()
-    }
-
-    /// A ring of the boundary that is inside all along.
-    fn whole_ring(&self, ring: &Ring, walk: &mut Vec<Stretch>) {
-        for at in ring.stops.clone() {
-            self.add(walk, at, self.way(at).turn);
-        }
-    }
-
-    /// The runs from all entries.
-    fn runs(&self) -> Runs {
-        let mut stretches = Vec::with_capacity(2 * self.entries.len());
-        let run = |entry: &Entry| {
-            let begin = stretches.len() as u32;
-            let &Entry { stop, edge, center: start, entering: turn, .. } = entry;
-            stretches.push(Stretch { first: stop, last: stop, turn, start, at_crossing: true });
-            // Along the boundary until the level crosses an edge again, going out.
-            let mut at = self.following(stop);
-            while self.is_larger(self.circuit.radii[at as usize + 1]) {
-                self.add(&mut stretches, at, self.way(at).turn);
-                at = self.following(at);
-            }
-            let next = self.ranks.rank(self.way(at).across);
-            self.add(&mut stretches, at, self.entries[next].leaving);
-            Run { begin, end: stretches.len() as u32, next: next as u32, edge }
-        };
-        let runs = self.entries.iter().map(run).collect();
-        Runs { runs, stretches }
+        whole.sorted().chain(around.sorted()).collect()
     }
 
     /// The stop that follows on the boundary.
     #[inline]
-    fn following(&self, at: u32) -> u32 {
+    pub fn following(&self, at: u32) -> u32 {
         let next = self.way(at + 1);
         if next.is_end { next.across } else { at + 1 }
     }
 
-    /// Adds a piece or the beginning of one, as one stretch with the last if that is on the same site or arc.
+    /// A ring of the boundary that is inside all along.
+    fn whole_ring(&self, ring: &Ring, walk: &mut Vec<Stretch>) {
+        let legs = &self.circuit.legs[ring.legs.start as usize..=ring.legs.end as usize];
+        walk.extend(legs.windows(2).map(|pair| self.whole_leg(&pair[0], &pair[1])));
+    }
+
+    /// A leg that is inside all along, before another.
     #[inline]
-    fn add(&self, walk: &mut Vec<Stretch>, at: u32, turn: f64) {
-        if let Some(last) = walk.last_mut() {
-            let same = match self.way(at).after {
-                After::SameSite => true,
-                After::SameSource => (last.turn + turn).abs() <= std::f64::consts::PI,
-                After::OtherSource => false,
-            };
-            if same {
-                (last.last, last.turn) = (at, last.turn + turn);
-                return;
-            }
-        }
-        let foot = self.stop(at).foot;
-        let start = foot.point + foot.normal * self.d;
-        walk.push(Stretch { first: at, last: at, turn, start, at_crossing: false });
+    pub fn whole_leg(&self, leg: &Leg, next: &Leg) -> Stretch {
+        let start = leg.foot.point + leg.foot.normal * self.d;
+        Stretch { first: leg.first, last: next.first - 1, bulge: leg.bulge, start, at_crossing: false }
     }
 
     /// Where a stretch begins on the boundary.
@@ -185,53 +149,33 @@ impl<'a> Tracer<'a> {
     }
 }
 
-/// What the level follows of the boundary from one crossing to the next.
-struct Run {
-    /// Its stretches.
-    begin: u32,
-    end: u32,
-    /// The run that follows it in the level.
-    next: u32,
-    /// The edge that it begins at.
-    edge: u32,
+/// What is made in one order and asked for in another.
+struct InOrder<T> {
+    made: Vec<T>,
+    /// Keys and places of what is made.
+    keys: Vec<(u32, u32)>,
 }
 
-/// All runs of a level in the order of the boundary, so that memory is read from one end to the other; only
-/// then are they linked.
-struct Runs {
-    runs: Vec<Run>,
-    stretches: Vec<Stretch>,
-}
+impl<T: Default> InOrder<T> {
+    fn new() -> InOrder<T> {
+        InOrder { made: Vec::new(), keys: Vec::new() }
+    }
 
-impl Runs {
-    /// The walk that a run is part of. It begins at the crossed edge of the lowest id, which is returned.
-    fn walk_from(&self, first: usize, done: &mut [bool], walk: &mut Vec<Stretch>) -> u32 {
-        let mut lowest = first;
-        let mut at = first;
-        loop {
-            done[at] = true;
-            if self.runs[at].edge < self.runs[lowest].edge {
-                lowest = at;
-            }
-            at = self.runs[at].next as usize;
-            if at == first {
-                break;
-            }
-        }
-        at = lowest;
-        loop {
-            let Run { begin, end, next, .. } = self.runs[at];
-            walk.extend_from_slice(&self.stretches[begin as usize..end as usize]);
-            at = next as usize;
-            if at == lowest {
-                return self.runs[lowest].edge;
-            }
-        }
+    fn add(&mut self, key: u32, made: Option<T>) {
+        let Some(made) = made else { return };
+        self.keys.push((key, self.made.len() as u32));
+        self.made.push(made);
+    }
+
+    /// In the order of keys, of which no two are the same.
+    fn sorted(mut self) -> impl Iterator<Item = T> {
+        self.keys.sort_unstable_by_key(|&(key, _)| key);
+        self.keys.into_iter().map(move |(_, at)| std::mem::take(&mut self.made[at as usize]))
     }
 }
 
 /// A set of ids, a bit for each, and how many come before each word of them.
-struct Ranks(Vec<(u64, u32)>);
+pub(super) struct Ranks(Vec<(u64, u32)>);
 
 impl Ranks {
     /// Of growing ids.
@@ -247,7 +191,8 @@ impl Ranks {
     }
 
     /// How many ids are lower than one.
-    fn rank(&self, id: u32) -> usize {
+    #[inline]
+    pub fn rank(&self, id: u32) -> usize {
         let (word, before) = self.0[id as usize / 64];
         before as usize + (word & ((1 << (id % 64)) - 1)).count_ones() as usize
     }
