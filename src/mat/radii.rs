@@ -5,6 +5,7 @@ use super::graph::Graph;
 use super::kinds::Kinds;
 use super::site::Site;
 use std::ops::Range;
+use wide::f64x2;
 
 /// Index of the boundary and of peaks by radius.
 #[derive(Clone, Debug)]
@@ -82,10 +83,13 @@ impl<R: FnMut(u32), E: FnMut(u32)> Search<'_, R, E> {
         let first = block * BLOCK;
         let radii = &self.radii.circuit.radii[first..];
         let radii = &radii[..radii.len().min(BLOCK + 1)];
+        let [d, error, above] = [self.d, self.radii.error, self.d + self.radii.error].map(f64x2::splat);
         let (mut larger, mut equal) = (0u32, 0u32);
-        for (i, &radius) in radii.iter().enumerate() {
-            larger |= u32::from(radius > self.d + self.radii.error) << i;
-            equal |= u32::from((radius - self.d).abs() <= self.radii.error) << i;
+        for (i, pair) in radii.chunks(2).enumerate() {
+            // One alone stands for both, and the second bit is beyond the last stop.
+            let pair = f64x2::new([pair[0], pair[pair.len() - 1]]);
+            larger |= pair.simd_gt(above).to_bitmask() << (2 * i);
+            equal |= (pair - d).abs().simd_le(error).to_bitmask() << (2 * i);
         }
         let all = (1 << (radii.len() - 1)) - 1;
         bits(!larger & (larger >> 1) & all).for_each(|i| (self.rises)(first as u32 + i));

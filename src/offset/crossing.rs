@@ -14,6 +14,7 @@ use super::carriers::{Below, Carriers};
 use super::trace::Tracer;
 use crate::geom::{Point, Vector, vector};
 use crate::mat::{Foot, Site, Track, falling_root};
+use wide::f64x2;
 
 /// Crossings that are looked for side by side: neither memory nor roots are waited for one by one.
 const AT_A_TIME: usize = 16;
@@ -271,7 +272,8 @@ impl Sides<'_> {
     #[inline]
     fn may_hold(&self, c: Point) -> bool {
         let [a, b] = self.ends;
-        (a.distance(c) <= self.longest) & (b.distance(c) <= self.longest)
+        let [x, y] = [f64x2::new([a.x - c.x, b.x - c.x]), f64x2::new([a.y - c.y, b.y - c.y])];
+        (x * x + y * y).sqrt().simd_le(f64x2::splat(self.longest)).all()
     }
 }
 
