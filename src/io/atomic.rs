@@ -27,20 +27,66 @@ pub fn write_whole(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), Error> {
 /// # Errors
 /// When one cannot be written; then all are as they were.
 pub fn write_all_whole<P: AsRef<Path>, B: AsRef<[u8]>>(files: &[(P, B)]) -> Result<(), Error> {
-    let mut staged = Vec::with_capacity(files.len());
+    let mut drafts = Vec::with_capacity(files.len());
     for (path, bytes) in files {
-        let path = path.as_ref();
-        staged.push(stage(path, bytes.as_ref()).map_err(|cause| cannot_write(path, cause))?);
+        let mut draft = Draft::new(path)?;
+        draft.write(bytes.as_ref())?;
+        draft.finish()?;
+        drafts.push(draft);
     }
-    for (temporary, target) in staged {
+    put_in_place(drafts)
+}
+
+/// Puts files that are finished in the place of the old ones.
+///
+/// # Errors
+/// When one cannot be renamed.
+pub fn put_in_place(drafts: Vec<Draft>) -> Result<(), Error> {
+    for Draft { temporary, target, .. } in drafts {
         temporary.persist(&target).map_err(|e| cannot_write(&target, e.error))?;
     }
     Ok(())
 }
 
-/// Writes the temporary file beside the target and makes sure, as far as that can be known
+/// A file that is written bit by bit beside the one that it is to replace.
+pub struct Draft {
+    /// As it was named.
+    path: PathBuf,
+    temporary: NamedTempFile,
+    target: PathBuf,
+}
+
+impl Draft {
+    /// A file without text yet.
+    ///
+    /// # Errors
+    /// When it cannot be made, or could not replace what is there, as far as that can be known beforehand.
+    pub fn new(path: impl AsRef<Path>) -> Result<Draft, Error> {
+        let path = path.as_ref();
+        let (temporary, target) = stage(path).map_err(|cause| cannot_write(path, cause))?;
+        Ok(Draft { path: path.to_path_buf(), temporary, target })
+    }
+
+    /// Appends to it, without gathering: let the pieces be large.
+    ///
+    /// # Errors
+    /// When there is no room.
+    pub fn write(&mut self, bytes: &[u8]) -> Result<(), Error> {
+        self.temporary.write_all(bytes).map_err(|cause| cannot_write(&self.path, cause))
+    }
+
+    /// Waits until all of it is stored.
+    ///
+    /// # Errors
+    /// When that fails.
+    pub fn finish(&self) -> Result<(), Error> {
+        self.temporary.as_file().sync_all().map_err(|cause| cannot_write(&self.path, cause))
+    }
+}
+
+/// Makes the temporary file beside the target and makes sure, as far as that can be known
 /// beforehand, that it can be renamed. A link is followed, so that it stays a link.
-fn stage(path: &Path, bytes: &[u8]) -> io::Result<(NamedTempFile, PathBuf)> {
+fn stage(path: &Path) -> io::Result<(NamedTempFile, PathBuf)> {
     let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
     let old = fs::metadata(&target).ok();
     if old.as_ref().is_some_and(fs::Metadata::is_dir) {
@@ -62,9 +108,7 @@ fn stage(path: &Path, bytes: &[u8]) -> io::Result<(NamedTempFile, PathBuf)> {
     }
     fs::metadata(folder)?;
     // The kind alone: the name of the temporary file means nothing to a reader.
-    let mut temporary = builder.tempfile_in(folder).map_err(|e| io::Error::from(e.kind()))?;
-    temporary.write_all(bytes)?;
-    temporary.as_file().sync_all()?;
+    let temporary = builder.tempfile_in(folder).map_err(|e| io::Error::from(e.kind()))?;
     Ok((temporary, target))
 }
 

@@ -5,9 +5,8 @@ use crate::args::{Args, ReportArg};
 use crate::failure::Failure;
 use crate::plan::Plan;
 use medial::Error;
-use medial::io::atomic;
+use medial::io::atomic::{self, Draft};
 use medial::io::gcode::{self, Setup, Stats};
-use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -95,23 +94,27 @@ impl Outputs {
 
     /// Writes everything, or nothing. Answers what the program holds, if there is one.
     pub fn write(&self, plan: &Plan, setup: &Setup) -> Result<Option<Stats>, Failure> {
-        let program = if self.has_program() { Some(gcode::write(&plan.path.moves, setup)?) } else { None };
-        let text = program.as_ref().map_or("", |p| p.text.as_str());
-        let mut staged: Vec<(&Path, Cow<[u8]>)> = Vec::new();
+        let moves = &plan.path.moves;
+        let program = if self.standard_output { Some(gcode::write(moves, setup)?) } else { None };
+        let mut stats = program.as_ref().map(|p| p.stats.clone());
+        let mut drafts = Vec::with_capacity(self.files.len());
         for (path, form) in &self.files {
-            let bytes = match form {
-                Form::Gcode => text.as_bytes().into(),
-                Form::Dxf => plan.drawing().map_err(|cause| cannot_write(path, cause))?.into(),
-                Form::Svg => plan.picture().into_bytes().into(),
-                Form::Json => plan.document().to_json().into_bytes().into(),
-            };
-            staged.push((path, bytes));
+            let mut draft = Draft::new(path)?;
+            match (form, &program) {
+                (Form::Gcode, Some(known)) => draft.write(known.text.as_bytes())?,
+                (Form::Gcode, None) => stats = Some(gcode::write_to(moves, setup, |part| draft.write(part))?),
+                (Form::Dxf, _) => draft.write(&plan.drawing().map_err(|cause| cannot_write(path, cause))?)?,
+                (Form::Svg, _) => draft.write(plan.picture().as_bytes())?,
+                (Form::Json, _) => draft.write(plan.document().to_json().as_bytes())?,
+            }
+            draft.finish()?;
+            drafts.push(draft);
         }
-        atomic::write_all_whole(&staged)?;
-        if self.standard_output {
-            print_out(text)?;
+        atomic::put_in_place(drafts)?;
+        if let Some(program) = program {
+            print_out(&program.text)?;
         }
-        Ok(program.map(|p| p.stats))
+        Ok(stats)
     }
 }
 

@@ -68,6 +68,16 @@ pub(super) fn with_radius(drawn: &Element, start: [i64; 2], end: [i64; 2]) -> Fi
     Fit::Radius(radius as i64)
 }
 
+/// Whether the chord between two rounded places is as good as an arc about a center, for sure, told without its
+/// angle: `|bulge| = tan(sweep / 4)`, and a quarter of the tangent of an acute angle is more than that.
+pub(super) fn surely_straight([from, to]: [Vector; 2], start: [i64; 2], end: [i64; 2]) -> bool {
+    /// Of what is straight, a part that leaves room for round-off.
+    const SURELY: f64 = 0.9 * STRAIGHT;
+    let (cross, dot) = (from.cross(to).abs(), from.dot(to));
+    let chord = vector((end[0] - start[0]) as f64, (end[1] - start[1]) as f64);
+    dot > 0.0 && 0.125 * cross * chord.length() < SURELY * dot
+}
+
 /// From one rounded end to the other, in steps, or how the arc is written if it has no shape.
 fn chord(bulge: f64, start: [i64; 2], end: [i64; 2]) -> Result<Vector, Fit> {
     if start == end {

@@ -13,10 +13,13 @@
 
 mod arc;
 mod comment;
+mod line;
 mod number;
 mod parts;
+mod program;
 mod setup;
 mod write;
 
+pub use program::{Stats, Written};
 pub use setup::{ArcWords, Coolant, Setup};
-pub use write::{Stats, Written, write};
+pub use write::{write, write_to};

@@ -10,14 +10,13 @@ const MAX_COORDINATE: f64 = 1e8;
 /// A number of decimals.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Grid {
-    decimals: u32,
     scale: f64,
 }
 
 impl Grid {
     /// Numbers with so many decimals.
     pub fn new(decimals: u32) -> Grid {
-        Grid { decimals, scale: f64::from(10u32.pow(decimals)) }
+        Grid { scale: f64::from(10u32.pow(decimals)) }
     }
 
     /// The last decimal, as a length.
@@ -35,28 +34,16 @@ impl Grid {
         if !(-MAX_COORDINATE..=MAX_COORDINATE).contains(&value) {
             return Err(Error::Parameter { name, value, range: "a number from -1e8 to 1e8" });
         }
-        Ok(self.steps(value).round() as i64)
+        // As `f64::round` does it: so far from overflow what is cut off is exact.
+        let steps = self.steps(value);
+        let whole = steps as i64;
+        let rest = steps - whole as f64;
+        Ok(whole + i64::from(rest >= 0.5) - i64::from(rest <= -0.5))
     }
 
     /// Both coordinates of a place.
     pub fn round_point(&self, p: Point) -> Result<[i64; 2], Error> {
         Ok([self.round("x", p.x)?, self.round("y", p.y)?])
-    }
-
-    /// Appends the digits, with all decimals and without a sign on zero.
-    pub fn push(&self, text: &mut String, steps: i64) {
-        const ZEROS: &str = "0000000000";
-        let mut digits = itoa::Buffer::new();
-        let digits = digits.format(steps.unsigned_abs());
-        if steps < 0 {
-            text.push('-');
-        }
-        let decimals = self.decimals as usize;
-        let (whole, part) = digits.split_at(digits.len().saturating_sub(decimals));
-        text.push_str(if whole.is_empty() { "0" } else { whole });
-        text.push('.');
-        text.push_str(&ZEROS[..decimals - part.len()]);
-        text.push_str(part);
     }
 }
 
@@ -68,21 +55,34 @@ pub(super) fn short(value: f64) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::super::line::Line;
     use super::*;
 
     #[test]
     fn zero_has_no_sign_and_small_numbers_no_exponent() {
         let grid = Grid::new(4);
         let text = |v| {
-            let mut text = String::new();
-            grid.push(&mut text, grid.round("x", v).unwrap());
-            text
+            let mut line = Line::new();
+            line.push_steps(grid.round("x", v).unwrap(), 4);
+            String::from_utf8(line.text().to_vec()).unwrap()
         };
         assert_eq!(text(-0.00001), "0.0000");
         assert_eq!(text(-0.00006), "-0.0001");
         assert_eq!(text(1e-300), "0.0000");
         assert_eq!(text(-12.34567), "-12.3457");
         assert_eq!(text(1e8), "100000000.0000");
+    }
+
+    #[test]
+    fn halves_are_rounded_away_from_zero() {
+        let grid = Grid::new(2);
+        let round = |v| grid.round("x", v).unwrap();
+        assert_eq!([0.005, -0.005, 1.125, -1.125].map(round), [1, -1, 113, -113]);
+        for v in [0.5f64.next_down(), 0.5, 1e6 - 0.5, (1e6f64 - 0.5).next_down(), 99_999_999.995, 1e8] {
+            for v in [v, -v, v / 100.0, -v / 100.0] {
+                assert_eq!(round(v), grid.steps(v).round() as i64, "{v}");
+            }
+        }
     }
 
     #[test]

@@ -1,46 +1,85 @@
 //! A long program, written in parts side by side.
 //!
-//! What a line says depends on where the tool is and on the feed rate, no more. After a move that cuts for sure
-//! both are known, and a part may begin there: the text is the same for any number of parts.
+//! **Method.** What a line says depends on where the tool is and on the feed rate, no more. After a move that
+//! cuts for sure both are known, and a part may begin there: the text is the same for any number of parts. While
+//! some parts are handed over, the next ones are made in the room of those before, so that a program takes
+//! little room however long it is.
 
 use super::number::Grid;
+use super::program::{Part, Stats};
 use super::setup::Setup;
-use super::write::{MAX_LINES, USUAL_LINE, Writer, Written, too_long};
+use super::write::Writer;
 use crate::error::Error;
 use crate::toolpath::Move;
 use rayon::prelude::*;
+use std::ops::Range;
 
-/// Moves to a part that is worth a thread.
-pub(super) const LEAST_PART: usize = 1 << 16;
+/// Moves to a part: its text stays near the processor until it is handed over.
+pub(super) const USUAL_PART: usize = 1 << 13;
 
-/// Writes a program in parts side by side, each of so many moves at least.
-pub(super) fn in_parts(moves: &[Move], setup: &Setup, count: usize, least: usize) -> Result<Written, Error> {
-    let count = count.min(moves.len() / least).max(1);
-    let mut begins = vec![0];
-    begins.extend((1..count).filter_map(|i| resumable(moves, setup, moves.len() * i / count)));
-    begins.dedup();
-    let ends = begins.iter().skip(1).copied().chain([moves.len()]);
-    let parts: Vec<(usize, usize)> = begins.iter().copied().zip(ends).collect();
-    let write = |&(begin, end): &(usize, usize)| -> Result<Written, Error> {
-        let mut writer = if begin == 0 { Writer::new(setup) } else { Writer::resumed(setup, moves, begin)? };
-        writer.out.text.reserve((end - begin) * USUAL_LINE);
-        if begin == 0 {
-            writer.header()?;
-        }
-        writer.moves(&moves[begin..end])?;
-        if end == moves.len() {
-            writer.footer()?;
-        }
-        Ok(writer.out)
-    };
-    let parts: Vec<Result<Written, Error>> = parts.par_iter().map(write).collect();
-    let mut parts = parts.into_iter();
-    let mut whole = parts.next().unwrap_or_else(|| Ok(Written::default()))?;
-    for part in parts {
-        whole.append(part?)?;
+/// Parts at once to a thread, as not all take the same time.
+const PER_THREAD: usize = 2;
+
+/// Writes a program in parts of so many moves at least, and hands these over in order.
+pub(super) fn in_parts(
+    moves: &[Move],
+    setup: &Setup,
+    least: usize,
+    mut put: impl FnMut(&[u8]) -> Result<(), Error> + Send,
+) -> Result<Stats, Error> {
+    let at_once = PER_THREAD * rayon::current_num_threads();
+    let (mut done, mut next): (Vec<Part>, Vec<Part>) = (Vec::new(), Vec::new());
+    let mut stats = Stats::default();
+    let ranges = ranges(moves, setup, least);
+    for some in ranges.chunks(at_once).chain([&[][..]]) {
+        let hand_over = || done.iter().try_for_each(|part| put(&part.text));
+        let (handed, made) = rayon::join(hand_over, || make(&mut next, moves, setup, some));
+        handed?;
+        made?;
+        next.iter().try_for_each(|part| stats.append(&part.stats))?;
+        std::mem::swap(&mut done, &mut next);
     }
-    whole.stats.bytes = whole.text.len();
-    Ok(whole)
+    Ok(stats)
+}
+
+/// Writes some parts side by side.
+fn make(parts: &mut Vec<Part>, moves: &[Move], setup: &Setup, ranges: &[Range<usize>]) -> Result<(), Error> {
+    parts.resize_with(ranges.len(), Part::default);
+    let make = |(part, range): (&mut Part, &Range<usize>)| fill(part, moves, setup, range.clone());
+    let results: Vec<_> = parts.par_iter_mut().zip(ranges).map(make).collect();
+    results.into_iter().collect()
+}
+
+/// Writes one part; the first has the header, the last the footer.
+fn fill(part: &mut Part, moves: &[Move], setup: &Setup, range: Range<usize>) -> Result<(), Error> {
+    part.clear();
+    let out = std::mem::take(part);
+    let mut writer = match range.start {
+        0 => Writer::new(setup, out),
+        begin => Writer::resumed(setup, out, moves, begin)?,
+    };
+    if range.start == 0 {
+        writer.header()?;
+    }
+    writer.moves(&moves[range.clone()])?;
+    if range.end == moves.len() {
+        writer.footer()?;
+    }
+    *part = writer.out;
+    part.stats.bytes = part.text.len();
+    Ok(())
+}
+
+/// The moves of each part.
+fn ranges(moves: &[Move], setup: &Setup, least: usize) -> Vec<Range<usize>> {
+    let mut begins = vec![0];
+    let mut from = least;
+    while let Some(begin) = resumable(moves, setup, from) {
+        begins.push(begin);
+        from = begin.saturating_add(least);
+    }
+    let ends = begins.iter().skip(1).copied().chain([moves.len()]);
+    begins.iter().copied().zip(ends).map(|(begin, end)| begin..end).collect()
 }
 
 /// The first move from some on before which one cuts for sure, so that the state of the controller is known.
@@ -49,22 +88,6 @@ fn resumable(moves: &[Move], setup: &Setup, from: usize) -> Option<usize> {
     let place = |i: usize| grid.round_point(moves[i].to().xy()).ok();
     let cuts = |i: usize| moves[i].rate().is_some() && place(i).is_some() && place(i) != place(i - 1);
     (from.max(2)..moves.len()).find(|&k| cuts(k - 1))
-}
-
-impl Written {
-    /// Goes on with what was written apart.
-    fn append(&mut self, part: Written) -> Result<(), Error> {
-        self.text.push_str(&part.text);
-        let (a, b) = (&mut self.stats, &part.stats);
-        a.text_lines += b.text_lines;
-        a.rapids += b.rapids;
-        a.lines += b.lines;
-        a.arcs += b.arcs;
-        a.dropped_lines += b.dropped_lines;
-        a.dropped_arcs += b.dropped_arcs;
-        a.dropped_arc_at = a.dropped_arc_at.or(b.dropped_arc_at);
-        if a.text_lines > MAX_LINES { Err(too_long()) } else { Ok(()) }
-    }
 }
 
 #[cfg(test)]
@@ -95,21 +118,42 @@ mod tests {
         moves
     }
 
+    /// A program written in parts, what is in it, and in how many parts it came.
+    fn written(setup: &Setup, least: usize) -> (Vec<u8>, Stats, usize) {
+        let (mut text, mut count) = (Vec::new(), 0);
+        let put = |part: &[u8]| {
+            text.extend_from_slice(part);
+            count += 1;
+            Ok(())
+        };
+        let stats = in_parts(&moves(), setup, least, put).unwrap();
+        (text, stats, count)
+    }
+
     #[test]
     fn parts_make_the_same_program() {
         for arcs in [ArcWords::Ijk, ArcWords::R, ArcWords::Off] {
             let setup = Setup { arcs, ..Setup::new(crate::Units::Mm) };
-            let whole = in_parts(&moves(), &setup, 1, 1).unwrap();
-            for count in 2..60 {
-                assert_eq!(in_parts(&moves(), &setup, count, 1).unwrap(), whole, "{count} parts");
+            let (text, stats, _) = written(&setup, usize::MAX);
+            assert_eq!(stats.bytes, text.len());
+            for least in 1..60 {
+                let parts = written(&setup, least);
+                assert_eq!((&parts.0, &parts.1), (&text, &stats), "{least} moves to a part");
+                assert!(parts.2 > 200 / (least + 5), "{least}: {} parts", parts.2);
             }
         }
+    }
+
+    #[test]
+    fn who_takes_no_more_ends_it() {
+        let full = || Err(Error::Internal { what: "full".into(), at: point(0.0, 0.0) });
+        assert!(in_parts(&moves(), &Setup::new(crate::Units::Mm), 10, |_| full()).is_err());
     }
 
     #[test]
     fn a_part_with_a_fault_is_an_error() {
         let mut moves = moves();
         moves.push(Move::Feed { to: Point3 { x: f64::NAN, y: 0.0, z: 0.0 }, rate: 1.0 });
-        assert!(in_parts(&moves, &Setup::new(crate::Units::Mm), 3, 1).is_err());
+        assert!(in_parts(&moves, &Setup::new(crate::Units::Mm), 100, |_| Ok(())).is_err());
     }
 }

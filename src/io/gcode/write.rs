@@ -1,19 +1,17 @@
 //! The words of a program.
 
-use super::arc::{Fit, with_center, with_radius};
+use super::arc::{Fit, surely_straight, with_center, with_radius};
 use super::comment::{self, MAX_LINE};
+use super::line::Line;
 use super::number::{Grid, short};
-use super::parts::{LEAST_PART, in_parts};
+use super::parts::{USUAL_PART, in_parts};
+use super::program::{Part, Stats, Written};
 use super::setup::{ArcWords, Coolant, Setup};
 use crate::error::Error;
 use crate::geom::{Element, Point};
 use crate::tolerance::Units;
 use crate::toolpath::{Move, Point3};
-use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
-
-/// Most lines of a program; no controller holds as many.
-pub(super) const MAX_LINES: usize = 50_000_000;
 
 /// Line numbers go up by this and begin again after `LAST_NUMBER`.
 const NUMBER_STEP: usize = 10;
@@ -22,37 +20,7 @@ const NUMBER_STEP: usize = 10;
 const LAST_NUMBER: usize = 99_990;
 
 /// About how many bytes a line takes.
-pub(super) const USUAL_LINE: usize = 24;
-
-/// A program as text.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Written {
-    /// The text, with a line feed after each line.
-    pub text: String,
-    /// What is in it.
-    pub stats: Stats,
-}
-
-/// What a program holds.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Stats {
-    /// Lines of text.
-    pub text_lines: usize,
-    /// Rapids (G0).
-    pub rapids: usize,
-    /// Straight feeds (G1).
-    pub lines: usize,
-    /// Arcs (G2, G3).
-    pub arcs: usize,
-    /// Straight feeds left out because their rounded ends coincide.
-    pub dropped_lines: usize,
-    /// Arcs left out because their rounded ends coincide.
-    pub dropped_arcs: usize,
-    /// Where the first of those arcs is.
-    pub dropped_arc_at: Option<Point>,
-    /// Length of the text.
-    pub bytes: usize,
-}
+const USUAL_LINE: usize = 24;
 
 /// Writes a program.
 ///
@@ -60,42 +28,54 @@ pub struct Stats {
 /// When a setting or a coordinate is out of its range, when a feed comes before the first rapid to
 /// a place in the plane, or when the program would be too long.
 pub fn write(moves: &[Move], setup: &Setup) -> Result<Written, Error> {
-    setup.check()?;
-    // Numbered lines depend on all before them.
-    let least = if setup.line_numbers { usize::MAX } else { LEAST_PART };
-    in_parts(moves, setup, rayon::current_num_threads(), least)
+    let mut text = Vec::with_capacity(moves.len() * USUAL_LINE);
+    let stats = write_to(moves, setup, |part| {
+        text.extend_from_slice(part);
+        Ok(())
+    })?;
+    Ok(Written { text: String::from_utf8(text).expect("all words are ASCII"), stats })
 }
 
-/// The program has too many lines.
-pub(super) fn too_long() -> Error {
-    let needed = MAX_LINES as u64 + 1;
-    Error::Effort { what: "the program", needed, limit: MAX_LINES as u64 }
+/// Writes a program stretch by stretch: each is handed over in its turn while the next ones are made.
+/// What was handed over before an error is no program.
+///
+/// # Errors
+/// As for [`write`], and those of `put`.
+pub fn write_to(
+    moves: &[Move],
+    setup: &Setup,
+    put: impl FnMut(&[u8]) -> Result<(), Error> + Send,
+) -> Result<Stats, Error> {
+    setup.check()?;
+    // Numbered lines depend on all before them.
+    let least = if setup.line_numbers { usize::MAX } else { USUAL_PART };
+    in_parts(moves, setup, least, put)
 }
 
 /// The state of the controller and the text so far.
 pub(super) struct Writer<'a> {
     setup: &'a Setup,
     grid: Grid,
-    pub out: Written,
+    pub out: Part,
     /// Where the tool is, before rounding.
     exact: Option<Point3>,
     xy: Option<[i64; 2]>,
     z: Option<i64>,
     rate: Option<(f64, String)>,
-    /// Room for the words of a line.
-    words: String,
+    /// The line at hand.
+    words: Line,
 }
 
 impl<'a> Writer<'a> {
-    pub fn new(setup: &'a Setup) -> Writer<'a> {
+    pub fn new(setup: &'a Setup, out: Part) -> Writer<'a> {
         let grid = Grid::new(setup.decimals);
         let (exact, xy, z, rate) = (None, None, None, None);
-        Writer { setup, grid, out: Written::default(), exact, xy, z, rate, words: String::new() }
+        Writer { setup, grid, out, exact, xy, z, rate, words: Line::new() }
     }
 
     /// The writer of the moves from one on, before which a move cuts.
-    pub fn resumed(setup: &'a Setup, moves: &[Move], begin: usize) -> Result<Writer<'a>, Error> {
-        let mut writer = Writer::new(setup);
+    pub fn resumed(setup: &'a Setup, out: Part, moves: &[Move], begin: usize) -> Result<Writer<'a>, Error> {
+        let mut writer = Writer::new(setup, out);
         let last = &moves[begin - 1];
         let at = last.to();
         writer.exact = Some(at);
@@ -160,9 +140,9 @@ impl<'a> Writer<'a> {
             self.rapid_z(z)?;
         }
         if self.xy != Some(xy) {
-            let mut words = self.begin("G0");
-            self.plane_words(&mut words, xy);
-            self.end(words)?;
+            self.words.begin("G0");
+            self.plane_words(xy);
+            self.end()?;
             self.out.stats.rapids += 1;
             self.xy = Some(xy);
         }
@@ -173,11 +153,11 @@ impl<'a> Writer<'a> {
         if self.z == Some(z) {
             return Ok(());
         }
-        let mut words = self.begin("G0");
-        self.z_word(&mut words, z);
+        self.words.begin("G0");
+        self.z_word(z);
         self.z = Some(z);
         self.out.stats.rapids += 1;
-        self.end(words)
+        self.end()
     }
 
     fn feed(&mut self, to: Point3, rate: f64) -> Result<(), Error> {
@@ -194,19 +174,22 @@ impl<'a> Writer<'a> {
             self.out.stats.dropped_lines += 1;
             return Ok(());
         }
-        let mut words = self.begin("G1");
-        self.plane_words(&mut words, xy);
-        self.z_word(&mut words, z);
+        self.words.begin("G1");
+        self.plane_words(xy);
+        self.z_word(z);
         (self.xy, self.z) = (Some(xy), Some(z));
         self.out.stats.lines += 1;
-        self.cut(words, rate)
+        self.cut(rate)
     }
 
     fn arc(&mut self, to: Point3, center: Point, ccw: bool, rate: f64) -> Result<(), Error> {
-        let (Some(from), Some(_)) = (self.exact, self.xy) else { return Err(begins_with_feed(to)) };
+        let (Some(from), Some(start)) = (self.exact, self.xy) else { return Err(begins_with_feed(to)) };
         // Everything must be a number that can be written before it is divided.
-        self.grid.round_point(to.xy())?;
-        self.grid.round("z", to.z)?;
+        let (end, z) = (self.grid.round_point(to.xy())?, self.grid.round("z", to.z)?);
+        let spokes = [from.xy() - center, to.xy() - center];
+        if self.setup.arcs != ArcWords::Off && surely_straight(spokes, start, end) {
+            return if start == end { self.vanished(z, true, to, rate) } else { self.straight(end, z, rate) };
+        }
         let drawn = drawn_arc(from.xy(), to.xy(), center, ccw);
         let (mut next, mut parts) = (Some((drawn, from.z, to.z)), Vec::new());
         while let Some((part, z0, z1)) = next.or_else(|| parts.pop()) {
@@ -215,7 +198,7 @@ impl<'a> Writer<'a> {
             let fit = self.fit(&part, start, end);
             let z = self.grid.round("z", z1)?;
             match fit {
-                Fit::Nothing => self.vanished(z, part == drawn, &part, rate)?,
+                Fit::Nothing => self.vanished(z, part == drawn, to, rate)?,
                 Fit::Line => self.straight(end, z, rate)?,
                 Fit::Center([i, j]) => {
                     self.curved(part.bulge > 0.0, end, z, &[(" I", i), (" J", j)], rate)?;
@@ -253,13 +236,13 @@ impl<'a> Writer<'a> {
     }
 
     /// An arc, or a part of one, whose rounded ends coincide; a helix still changes its height.
-    fn vanished(&mut self, z: i64, is_whole: bool, arc: &Element, rate: f64) -> Result<(), Error> {
+    fn vanished(&mut self, z: i64, is_whole: bool, to: Point3, rate: f64) -> Result<(), Error> {
         if self.z != Some(z) {
             return self.straight(self.xy.unwrap_or_default(), z, rate);
         }
         if is_whole {
             self.out.stats.dropped_arcs += 1;
-            self.out.stats.dropped_arc_at.get_or_insert(arc.end);
+            self.out.stats.dropped_arc_at.get_or_insert(to.xy());
         }
         Ok(())
     }
@@ -273,71 +256,56 @@ impl<'a> Writer<'a> {
         center: &[(&str, i64)],
         rate: f64,
     ) -> Result<(), Error> {
-        let mut words = self.begin(if ccw { "G3" } else { "G2" });
-        self.word(&mut words, " X", xy[0]);
-        self.word(&mut words, " Y", xy[1]);
-        self.z_word(&mut words, z);
-        center.iter().for_each(|(letter, steps)| self.word(&mut words, letter, *steps));
+        self.words.begin(if ccw { "G3" } else { "G2" });
+        self.word(" X", xy[0]);
+        self.word(" Y", xy[1]);
+        self.z_word(z);
+        center.iter().for_each(|(letter, steps)| self.word(letter, *steps));
         (self.xy, self.z) = (Some(xy), Some(z));
         self.out.stats.arcs += 1;
-        self.cut(words, rate)
+        self.cut(rate)
     }
 
     /// A motion with its feed rate where that changes.
-    fn cut(&mut self, words: String, rate: f64) -> Result<(), Error> {
+    fn cut(&mut self, rate: f64) -> Result<(), Error> {
         if self.rate.as_ref().is_some_and(|(known, _)| *known == rate) {
-            return self.end(words);
+            return self.end();
         }
         let text = short(rate);
         if !(rate > 0.0 && rate.is_finite()) || text == "0" {
             return Err(Error::Parameter { name: "feed", value: rate, range: "at least 0.001 per minute" });
         }
         if self.rate.as_ref().is_some_and(|(_, known)| *known == text) {
-            return self.end(words);
+            return self.end();
         }
-        let whole = format!("{words} F{text}");
+        let whole = [self.words.text(), b" F", text.as_bytes()].concat();
         if whole.len() + self.number().len() > MAX_LINE {
             self.line(&format!("F{text}"))?;
-            self.end(words)?;
+            self.end()?;
         } else {
-            self.line(&whole)?;
+            self.out.line(&self.number(), &whole)?;
         }
         self.rate = Some((rate, text));
         Ok(())
     }
 
-    /// The words of a line that begins with this one.
-    fn begin(&mut self, word: &str) -> String {
-        let mut words = std::mem::take(&mut self.words);
-        words.clear();
-        words.push_str(word);
-        words
-    }
-
-    /// Writes a line that was begun.
-    fn end(&mut self, words: String) -> Result<(), Error> {
-        self.line(&words)?;
-        self.words = words;
-        Ok(())
-    }
-
-    fn word(&self, words: &mut String, letter: &str, steps: i64) {
-        words.push_str(letter);
-        self.grid.push(words, steps);
+    fn word(&mut self, letter: &str, steps: i64) {
+        self.words.push(letter);
+        self.words.push_steps(steps, self.setup.decimals);
     }
 
     /// X and Y where they differ from where the tool is.
-    fn plane_words(&self, words: &mut String, xy: [i64; 2]) {
+    fn plane_words(&mut self, xy: [i64; 2]) {
         for (axis, letter) in [" X", " Y"].into_iter().enumerate() {
             if self.xy.is_none_or(|now| now[axis] != xy[axis]) {
-                self.word(words, letter, xy[axis]);
+                self.word(letter, xy[axis]);
             }
         }
     }
 
-    fn z_word(&self, words: &mut String, z: i64) {
+    fn z_word(&mut self, z: i64) {
         if self.z != Some(z) {
-            self.word(words, " Z", z);
+            self.word(" Z", z);
         }
     }
 
@@ -350,21 +318,14 @@ impl<'a> Writer<'a> {
         format!("N{n} ")
     }
 
+    /// Writes the line at hand.
+    fn end(&mut self) -> Result<(), Error> {
+        self.out.line(&self.number(), self.words.text())
+    }
+
+    /// Writes a line of its own.
     fn line(&mut self, words: &str) -> Result<(), Error> {
-        if self.out.stats.text_lines >= MAX_LINES {
-            return Err(too_long());
-        }
-        let number = if words.starts_with('(') { String::new() } else { self.number() };
-        let text = &mut self.out.text;
-        text.push_str(&number);
-        if number.len() + words.len() > MAX_LINE && !words.starts_with('(') {
-            text.extend(words.chars().filter(|c| *c != ' '));
-        } else {
-            text.push_str(words);
-        }
-        text.push('\n');
-        self.out.stats.text_lines += 1;
-        Ok(())
+        self.out.line(&self.number(), words.as_bytes())
     }
 }
 
