@@ -54,7 +54,7 @@ impl ArcSpline {
 
     /// Element `i`, from vertex `i` to the next.
     pub fn element(&self, i: usize) -> Element {
-        let (a, b) = (self.vertices[i], self.vertices[(i + 1) % self.vertices.len()]);
+        let (a, b) = (self.vertices[i], self.vertices.get(i + 1).unwrap_or(&self.vertices[0]));
         Element { start: a.point, end: b.point, bulge: a.bulge }
     }
 

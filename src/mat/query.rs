@@ -53,15 +53,47 @@ impl Mat {
         let reach = 0.5 * inside.length() + needed.max(0.0) + self.residual_error();
         let mut clear = true;
         let around = SearchDisk { center: inside.point_at(0.5), radius: reach };
+        let beads = Beads::new(&inside, needed.max(0.0) + self.residual_error());
         self.bvh.search(around, |i| {
             let site = &self.sites[i as usize];
             // In a pocket that is nearly round many boxes are in reach, and few sites.
-            let is_out_of_reach = site.distance(around.center) > reach;
+            let is_out_of_reach = site.distance(around.center) > reach || beads.are_off(site);
             clear &= is_out_of_reach || gap(&inside, site) >= needed;
             // Once something is in the way there is nothing left to search.
             (!clear).then_some(SearchDisk { center: around.center, radius: 0.0 })
         });
         clear
+    }
+}
+
+/// A path as a string of pieces, each within half its length of its middle.
+struct Beads {
+    middles: [Point; Beads::COUNT],
+    half: f64,
+    room: f64,
+}
+
+impl Beads {
+    const COUNT: usize = 16;
+
+    /// The pieces of a path that wants so much room around it.
+    fn new(path: &Element, room: f64) -> Beads {
+        let middle = |i: usize| path.point_at((i as f64 + 0.5) / Beads::COUNT as f64);
+        let half = 0.5 * path.length() / Beads::COUNT as f64;
+        Beads { middles: std::array::from_fn(middle), half, room }
+    }
+
+    /// Whether a site leaves all pieces their room for sure. Where it is far from one, it is not near to the next.
+    fn are_off(&self, site: &Site) -> bool {
+        let mut i = 0;
+        while let Some(&middle) = self.middles.get(i) {
+            let beyond = site.distance(middle) - self.room - self.half;
+            if beyond.is_nan() || beyond <= 0.0 {
+                return false;
+            }
+            i = i.saturating_add((0.5 * beyond / self.half) as usize).saturating_add(1);
+        }
+        true
     }
 }
 
