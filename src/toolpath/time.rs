@@ -7,16 +7,25 @@
 //!
 //! **Method.** Feed moves that run on into each other are one run: the time at their rates, and what
 //! starting and stopping adds, half of rate over acceleration each; a run too short for its rate takes
-//! twice the root of length over acceleration.
+//! twice the root of length over acceleration. What each move is on its own is found side by side, stretch by
+//! stretch; the times are added up in order, so that the sum is the same to the last bit.
 
 use super::cutter::rapid_minutes;
 use super::{Job, Move, Point3};
+use rayon::prelude::*;
+use std::ops::Range;
 
 /// Largest turn, in radians, that a machine runs through.
 const CORNER: f64 = 0.01;
 
 /// Seconds in a minute.
 const SECONDS: f64 = 60.0;
+
+/// Moves that are worth a thread.
+const STRETCH: usize = 1 << 11;
+
+/// Stretches at once to a thread, as not all take the same time.
+const PER_THREAD: usize = 4;
 
 /// A feed move in space: unit directions at its ends, length, and the rate that it is taken at.
 struct Leg {
@@ -25,46 +34,77 @@ struct Leg {
     rate: f64,
 }
 
+/// What a move is to the time of all.
+struct Step {
+    length: f64,
+    /// `None` for a rapid.
+    rate: Option<f64>,
+    /// Whether it goes on in the direction of the one before.
+    runs_on: bool,
+}
+
 /// Feed moves that run on into each other.
 struct Run {
     length: f64,
     /// Time at their rates.
     at_rates: f64,
     first_rate: f64,
-    last: Leg,
+    last_rate: f64,
 }
 
 /// Minutes of moves that begin where the tool is, if anywhere yet.
 pub(super) fn minutes(from: Option<Point3>, moves: &[Move], job: &Job) -> f64 {
     let acceleration = job.acceleration * SECONDS * SECONDS;
-    let (mut at, mut total, mut run) = (from, 0.0, None);
+    let (mut total, mut run) = (0.0, None);
     let time = |run: Option<Run>| run.map_or(0.0, |run| run.minutes(acceleration));
-    for m in moves {
-        let to = m.to();
-        let from = at.replace(to).unwrap_or(to);
-        let leg = leg(from, m, acceleration);
-        let goes_on = |run: &Run, next: &Leg| turns_by(run.last.ends[1], next.ends[0]) <= CORNER;
-        if leg.as_ref().is_none_or(|next| run.as_ref().is_some_and(|run| !goes_on(run, next))) {
-            total += time(run.take());
-        }
-        match leg {
-            Some(leg) => run = Some(Run::on(run, leg)),
-            None => total += rapid_minutes(from.distance(to), job),
+    let stretches: Vec<Range<usize>> =
+        (0..moves.len()).step_by(STRETCH).map(|begin| begin..moves.len().min(begin + STRETCH)).collect();
+    for some in stretches.chunks(PER_THREAD * rayon::current_num_threads()) {
+        let steps = |stretch: &Range<usize>| steps(from, moves, stretch.clone(), acceleration);
+        let all: Vec<Vec<Step>> = some.par_iter().map(steps).collect();
+        for steps in all {
+            for Step { length, rate, runs_on } in steps {
+                if !runs_on {
+                    total += time(run.take());
+                }
+                match rate {
+                    Some(rate) => run = Some(Run::on(run, length, rate)),
+                    None => total += rapid_minutes(length, job),
+                }
+            }
         }
     }
     total + time(run)
 }
 
+/// Some of the moves as steps.
+fn steps(from: Option<Point3>, moves: &[Move], stretch: Range<usize>, acceleration: f64) -> Vec<Step> {
+    // The first move of all may begin nowhere.
+    let before = |i: usize| i.checked_sub(1).map_or(from.unwrap_or(moves[i].to()), |last| moves[last].to());
+    let last = stretch.start.checked_sub(1).and_then(|last| leg(before(last), &moves[last], acceleration));
+    let (mut at, mut ahead) = (before(stretch.start), last.map(|leg| leg.ends[1]));
+    let step = |m: &Move| {
+        let from = std::mem::replace(&mut at, m.to());
+        let Some(Leg { ends, length, rate }) = leg(from, m, acceleration) else {
+            ahead = None;
+            return Step { length: from.distance(at), rate: None, runs_on: false };
+        };
+        let runs_on = ahead.replace(ends[1]).is_some_and(|ahead| turns_by(ahead, ends[0]) <= CORNER);
+        Step { length, rate: Some(rate), runs_on }
+    };
+    moves[stretch].iter().map(step).collect()
+}
+
 impl Run {
     /// A run that goes on by a move, or begins with it.
-    fn on(run: Option<Run>, leg: Leg) -> Run {
-        let (length, at_rates, first_rate) =
-            run.map_or((0.0, 0.0, leg.rate), |run| (run.length, run.at_rates, run.first_rate));
-        Run { length: length + leg.length, at_rates: at_rates + leg.length / leg.rate, first_rate, last: leg }
+    fn on(run: Option<Run>, length: f64, rate: f64) -> Run {
+        let (before, at_rates, first_rate) =
+            run.map_or((0.0, 0.0, rate), |run| (run.length, run.at_rates, run.first_rate));
+        Run { length: before + length, at_rates: at_rates + length / rate, first_rate, last_rate: rate }
     }
 
     fn minutes(&self, acceleration: f64) -> f64 {
-        let [v, w] = [self.first_rate, self.last.rate];
+        let [v, w] = [self.first_rate, self.last_rate];
         if self.length >= 0.5 * (v * v + w * w) / acceleration {
             self.at_rates + 0.5 * (v + w) / acceleration
         } else {
@@ -74,6 +114,7 @@ impl Run {
 }
 
 /// `None` for a rapid.
+#[inline]
 fn leg(from: Point3, m: &Move, acceleration: f64) -> Option<Leg> {
     match *m {
         Move::Rapid { .. } => None,
@@ -127,6 +168,24 @@ mod tests {
         assert!((seconds(&[feed(100.0, 0.0)], 20.0) - 10.5).abs() < 1e-9);
         assert!((seconds(&[feed(40.0, 0.0), feed(100.0, 0.0)], 20.0) - 10.5).abs() < 1e-9);
         assert!((seconds(&[feed(60.0, 0.0), feed(60.0, 40.0)], 20.0) - 11.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn many_moves_take_as_long_as_one_after_the_other() {
+        let place =
+            |i: usize| (0.01 * (i as f64), if i % 1500 < 1490 { 0.0 } else { 0.004 * (i % 2) as f64 });
+        let mut moves: Vec<Move> = (0..5 * STRETCH).map(|i| feed(place(i).0, place(i).1)).collect();
+        for i in [7, STRETCH - 1, 2 * STRETCH, 3 * STRETCH + 9] {
+            moves[i] = Move::Rapid { to: moves[i].to() };
+        }
+        let all = minutes(None, &moves, &job(20.0));
+        // Runs end at rapids, so that what lies between these is timed apart.
+        let (mut apart, mut before) = (0.0, None);
+        for part in moves.split_inclusive(|m| m.rate().is_none()) {
+            apart += minutes(before, part, &job(20.0));
+            before = part.last().map(Move::to);
+        }
+        assert!((all - apart).abs() < 1e-9 * all && all > 0.1, "{all} {apart}");
     }
 
     #[test]
