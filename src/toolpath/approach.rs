@@ -91,7 +91,7 @@ impl Planner<'_> {
             ground.detour(self.cutter.at()?, pass, (limits.length, flat), slot)?;
         let end = *places.last()?;
         let begun = course.nearest(end);
-        let begun = course.clone().begun_at(begun, ground.slack);
+        let begun = course.begun_at(begun, ground.slack);
         if begun.start.distance(end) > ground.slack {
             return None;
         }
@@ -124,7 +124,7 @@ impl Planner<'_> {
         let (door, inside) =
             open.min_by(|(a, _), (b, _)| a.at.distance(here).total_cmp(&b.at.distance(here)))?;
         [ground.begin[pass], Some(door.at)].into_iter().flatten().find_map(|place| {
-            let begun = course.clone().begun_at(course.nearest(place), ground.slack);
+            let begun = course.begun_at(course.nearest(place), ground.slack);
             let from = if inside {
                 door.at
             } else {

@@ -9,6 +9,9 @@ const CORNER: f64 = 0.01;
 /// Round-off of a difference of two distances, against the distance that it is held against.
 const ROUNDINGS: f64 = 16.0 * f64::EPSILON;
 
+/// Of so many elements the start of one tells how near a course comes at least.
+const SOME: usize = 64;
+
 /// Elements in order of travel; closed when the last ends where the first begins.
 #[derive(Clone, Debug)]
 pub(super) struct Course {
@@ -16,6 +19,8 @@ pub(super) struct Course {
     pub closed: bool,
     /// Where it begins; the only place of a course without elements.
     pub start: Point,
+    /// No chord is longer, nor one over what is left out between elements.
+    longest: f64,
 }
 
 /// A place on a course, for beginning there.
@@ -30,15 +35,19 @@ impl Course {
     /// Along a spline, in its sense or against it. `None` where it has no vertex.
     pub fn along(spline: &ArcSpline, backwards: bool) -> Option<Course> {
         let start = spline.vertices.first()?.point;
-        let useful = |e: &Element| e.is_finite() && (e.start != e.end);
-        let mut elements = Vec::with_capacity(spline.len() + 1);
-        if backwards {
-            elements.extend((0..spline.len()).rev().map(|i| spline.element(i).reversed()).filter(useful));
+        let n = spline.len();
+        let mut elements: Vec<Element> = if backwards {
+            (0..n).rev().map(|i| spline.element(i).reversed()).collect()
         } else {
-            elements.extend(spline.elements().filter(useful));
+            spline.elements().collect()
+        };
+        let is_useful = |e: &Element| e.is_finite() && (e.start != e.end);
+        let longest = if elements.iter().all(is_useful) { longest_chord(&elements) } else { f64::INFINITY };
+        if longest == f64::INFINITY {
+            elements.retain(is_useful);
         }
         let start = elements.first().map_or(start, |e| e.start);
-        Some(Course { elements, closed: spline.closed, start })
+        Some(Course { elements, closed: spline.closed, start, longest })
     }
 
     /// Length along the course.
@@ -63,16 +72,23 @@ impl Course {
             };
         }
         let mut best = Place { element: 0, point: self.start, distance: f64::INFINITY };
-        for (element, e) in self.elements.iter().enumerate() {
+        let some = self.elements.iter().step_by(SOME).map(|e| e.start.distance(p));
+        let nearest_start = some.fold(f64::INFINITY, f64::min);
+        let mut element = 0;
+        while let Some(e) = self.elements.get(element) {
             // No place of an arc up to a half circle is farther from its start than its end is.
             let beside = e.start.distance(p) - e.chord().length();
-            if e.bulge.abs() <= 1.0 && beside > best.distance * (1.0 + ROUNDINGS) {
+            let beyond = beside - best.distance.min(nearest_start) * (1.0 + ROUNDINGS);
+            if e.bulge.abs() <= 1.0 && beyond > 0.0 {
+                // Nor can the next ones come nearer than by the longest chord each.
+                element = element.saturating_add((beyond / self.longest) as usize).max(element + 1);
                 continue;
             }
             let near = e.nearest(p);
             if near.distance < best.distance {
                 best = Place { element, point: near.point, distance: near.distance };
             }
+            element += 1;
         }
         best
     }
@@ -91,29 +107,27 @@ impl Course {
 
     /// The same course begun at a place of it; an open one is turned round where that is its end.
     /// Parts shorter than `slack` are not split off.
-    pub fn begun_at(mut self, place: Place, slack: f64) -> Course {
-        if self.elements.is_empty() {
-            return self;
+    pub fn begun_at(&self, place: Place, slack: f64) -> Course {
+        if !self.closed && place.element > 0 {
+            return self.clone().turned();
         }
-        if !self.closed {
-            return if place.element > 0 { self.turned() } else { self };
+        if !self.closed || self.elements.is_empty() {
+            return self.clone();
         }
-        let i = place.element;
-        let e = self.elements[i];
+        let e = self.elements[place.element];
         let (before, after) = e.split(e.parameter(place.point));
-        let n = self.elements.len();
         // A place next to a vertex is the vertex: no element of round-off length.
-        if before.length() <= slack {
-            self.elements.rotate_left(i);
-        } else if after.length() <= slack {
-            self.elements.rotate_left((i + 1) % n);
-        } else {
-            self.elements.rotate_left(i);
-            self.elements[0] = after;
-            self.elements.push(before);
+        let is_start = before.length() <= slack;
+        let is_end = !is_start && after.length() <= slack;
+        let (gone, coming) = self.elements.split_at(place.element + usize::from(is_end));
+        let mut elements = Vec::with_capacity(self.elements.len() + 1);
+        elements.extend_from_slice(coming);
+        elements.extend_from_slice(gone);
+        if !(is_start || is_end) {
+            elements[0] = after;
+            elements.push(before);
         }
-        self.start = self.elements[0].start;
-        self
+        Course { start: elements[0].start, elements, ..*self }
     }
 
     /// The same course from its end to its start.
@@ -145,6 +159,14 @@ impl Course {
     }
 }
 
+/// Length of the longest chord; beyond any where an element is more than half a circle.
+fn longest_chord(elements: &[Element]) -> f64 {
+    let squared = elements
+        .iter()
+        .map(|e| if e.bulge.abs() <= 1.0 { e.chord().length_squared() } else { f64::INFINITY });
+    squared.fold(0.0, f64::max).sqrt()
+}
+
 /// Whether there is a corner between an element and the next.
 pub(super) fn turns(a: &Element, b: &Element) -> bool {
     a.tangents().1.angle_to(b.tangents().0).abs() > CORNER
@@ -172,9 +194,24 @@ mod tests {
     }
 
     #[test]
+    fn nothing_nearer_is_passed_over() {
+        let vertex = |i: u32| {
+            let (angle, r) = (0.02 * f64::from(i), 5.0 + f64::from(i % 7));
+            (r * angle.cos(), r * angle.sin(), [0.3, 0.0, 0.0, 0.0, 0.0][i as usize % 5])
+        };
+        let star = Course::along(&ArcSpline::closed((0..314).map(vertex)), false).unwrap();
+        for i in 0..400 {
+            let angle = 0.7 * f64::from(i);
+            let p = point(0.04 * f64::from(i) * angle.cos(), 0.04 * f64::from(i) * angle.sin());
+            let nearest = star.elements.iter().map(|e| e.distance(p)).fold(f64::INFINITY, f64::min);
+            assert_eq!(star.nearest(p).distance, nearest);
+        }
+    }
+
+    #[test]
     fn a_place_at_a_vertex_splits_nothing() {
         let s = square();
-        let c = s.clone().begun_at(s.nearest(point(5.0, 5.0)), 1e-12);
+        let c = s.begun_at(s.nearest(point(5.0, 5.0)), 1e-12);
         assert_eq!((c.start, c.elements.len()), (point(4.0, 4.0), 4));
     }
 
@@ -182,7 +219,7 @@ mod tests {
     fn an_open_course_begins_at_its_nearer_end() {
         let o = ArcSpline::open([(0.0, 0.0, 0.5), (2.0, 0.0, 0.0), (5.0, 0.0, 0.0)]);
         let c = Course::along(&o, false).unwrap();
-        let c = c.clone().begun_at(c.nearest(point(6.0, 0.0)), 1e-12);
+        let c = c.begun_at(c.nearest(point(6.0, 0.0)), 1e-12);
         assert_eq!((c.start, c.end()), (point(5.0, 0.0), point(0.0, 0.0)));
         assert_eq!(c.elements[1].bulge, -0.5);
     }

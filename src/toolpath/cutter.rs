@@ -3,8 +3,12 @@
 use super::{Job, Move, Point3};
 use crate::geom::{Element, Point};
 use crate::tolerance::Units;
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
+
+/// Moves that are worth a thread.
+const LEAST: usize = 1 << 10;
 
 /// What a path amounts to. Lengths in job units.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -72,12 +76,14 @@ pub(super) struct Cutter<'a> {
     at: Option<Point3>,
     pub moves: Vec<Move>,
     pub totals: Totals,
+    /// Lengths of moves that were made side by side.
+    lengths: Vec<f64>,
 }
 
 impl<'a> Cutter<'a> {
     /// A tool that is nobody knows where.
     pub fn new(job: &'a Job) -> Cutter<'a> {
-        Cutter { job, at: None, moves: Vec::new(), totals: Totals::default() }
+        Cutter { job, at: None, moves: Vec::new(), totals: Totals::default(), lengths: Vec::new() }
     }
 
     /// Where the tool is in the drawing, once it has moved.
@@ -140,6 +146,24 @@ impl<'a> Cutter<'a> {
         self.follow(e, z, self.job.feed);
     }
 
+    /// Along elements one after the other as if each were [cut](Cutter::cut). Of many, the moves are made side
+    /// by side; what they amount to is added up in their order, so that it is the same to the last bit.
+    pub fn cut_all(&mut self, elements: &[Element]) {
+        let Some(at) = self.at.filter(|at| elements.len() >= 2 * LEAST && are_moves(*at, elements)) else {
+            return elements.iter().for_each(|e| self.cut(e));
+        };
+        let (z, rate) = (at.z, self.job.feed);
+        let before = |i: usize| i.checked_sub(1).map_or(at, |last| Point3::new(elements[last].end, z));
+        let motions = elements.par_iter().enumerate().with_min_len(LEAST);
+        self.lengths.clear();
+        let mut all = (std::mem::take(&mut self.moves), std::mem::take(&mut self.lengths));
+        let first = all.0.len();
+        all.par_extend(motions.map(|(i, e)| motion(Some(before(i)), e, z, rate)));
+        let (moves, lengths) = all;
+        moves[first..].iter().zip(&lengths).for_each(|(m, length)| self.count(m, *length));
+        (self.moves, self.lengths) = (moves, lengths);
+    }
+
     /// The same at a share of the feed rate.
     pub fn cut_at(&mut self, e: &Element, share: f64) {
         let z = self.at.map_or(self.clearance(), |at| at.z);
@@ -154,12 +178,8 @@ impl<'a> Cutter<'a> {
             let t = |i: usize| i as f64 / parts as f64;
             let part = if parts == 1 { *e } else { e.part(t(i - 1), t(i)) };
             let z = if i == parts { z } else { from + (z - from) * t(i) };
-            match part.center() {
-                Some((center, radius)) if !is_flat(&part) => {
-                    self.arc(&part, center, radius, z, rate);
-                }
-                _ => self.line(part.end, z, rate),
-            }
+            let (m, length) = motion(self.at, &part, z, rate);
+            self.go(m, length);
         }
     }
 
@@ -176,28 +196,48 @@ impl<'a> Cutter<'a> {
 
     /// Straight at a rate.
     pub fn line(&mut self, p: Point, z: f64, rate: f64) {
-        let to = Point3::new(p, z);
-        if self.at == Some(to) {
+        let (m, length) = straight(self.at, Point3::new(p, z), rate);
+        self.go(m, length);
+    }
+
+    /// A feed move, unless it is a line to where the tool is.
+    fn go(&mut self, m: Move, length: f64) {
+        if matches!(m, Move::Feed { .. }) && self.at == Some(m.to()) {
             return;
         }
-        self.totals.lines += 1;
-        self.advance(to, self.at.map_or(0.0, |at| at.distance(to)), rate);
-        self.moves.push(Move::Feed { to, rate });
+        self.count(&m, length);
+        self.moves.push(m);
     }
 
-    fn arc(&mut self, part: &Element, center: Point, radius: f64, z: f64, rate: f64) {
-        let to = Point3::new(part.end, z);
-        let climb = self.at.map_or(0.0, |at| z - at.z);
-        self.totals.arcs += 1;
-        self.advance(to, (radius * part.sweep().abs()).hypot(climb), rate);
-        self.moves.push(Move::Arc { to, center, ccw: part.bulge > 0.0, rate });
-    }
-
-    fn advance(&mut self, to: Point3, length: f64, rate: f64) {
+    /// Adds up a feed move, and is where it ends.
+    fn count(&mut self, m: &Move, length: f64) {
+        match m {
+            Move::Arc { .. } => self.totals.arcs += 1,
+            _ => self.totals.lines += 1,
+        }
         self.totals.cut_length += length;
-        self.totals.minutes += length / rate;
-        self.at = Some(to);
+        self.totals.minutes += m.rate().map_or(0.0, |rate| length / rate);
+        self.at = Some(m.to());
     }
+}
+
+/// The move along an element of half a circle at most, and its length.
+fn motion(at: Option<Point3>, e: &Element, z: f64, rate: f64) -> (Move, f64) {
+    let to = Point3::new(e.end, z);
+    let center = if is_flat(e) { None } else { e.center() };
+    let Some((center, radius)) = center else { return straight(at, to, rate) };
+    let length = (radius * e.sweep().abs()).hypot(at.map_or(0.0, |at| z - at.z));
+    (Move::Arc { to, center, ccw: e.bulge > 0.0, rate }, length)
+}
+
+fn straight(at: Option<Point3>, to: Point3, rate: f64) -> (Move, f64) {
+    (Move::Feed { to, rate }, at.map_or(0.0, |at| at.distance(to)))
+}
+
+/// Whether each of some elements is one move.
+fn are_moves(at: Point3, elements: &[Element]) -> bool {
+    let mut last = at.xy();
+    elements.iter().all(|e| e.bulge.abs() <= 1.0 && std::mem::replace(&mut last, e.end) != e.end)
 }
 
 /// Whether an arc is no different from its chord, its center beyond reach.
@@ -253,6 +293,32 @@ mod tests {
         cutter.over(point(40.0, 3.0), -1.0);
         cutter.plunge(-1.0);
         assert!((cutter.totals.minutes - before - expected).abs() < 1e-12);
+    }
+
+    #[test]
+    fn many_moves_at_once_are_those_one_by_one() {
+        let job = Job::new(Units::Mm, 2.0, 1.0);
+        let vertex = |i: u32| {
+            let angle = 0.002 * f64::from(i);
+            (50.0 * angle.cos(), 50.0 * angle.sin(), [0.0, 1e-18, 0.4][i as usize % 3])
+        };
+        let course = crate::geom::ArcSpline::closed((0..3100).map(vertex));
+        let cut = |elements: &[Element], at_once: bool| {
+            let mut cutter = Cutter::new(&job);
+            cutter.over(point(50.0, 0.0), 0.0);
+            cutter.plunge(-1.0);
+            match at_once {
+                true => cutter.cut_all(elements),
+                false => elements.iter().for_each(|e| cutter.cut(e)),
+            }
+            (cutter.moves, cutter.totals)
+        };
+        let mut elements: Vec<Element> = course.elements().collect();
+        assert!(are_moves(Point3::new(point(50.0, 0.0), -1.0), &elements));
+        assert_eq!(cut(&elements, true), cut(&elements, false));
+        elements[7].bulge = 3.0;
+        elements[9].end = elements[8].end;
+        assert_eq!(cut(&elements, true), cut(&elements, false));
     }
 
     #[test]

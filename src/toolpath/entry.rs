@@ -168,7 +168,7 @@ impl Ground<'_> {
         if !course.closed || found.distance > self.slack {
             return None;
         }
-        let begun = course.clone().begun_at(found, self.slack);
+        let begun = course.begun_at(found, self.slack);
         let fits = |radius: f64| {
             let center = begun.start + inward * radius;
             (self.is_clear)(&Element::segment(center, center), job.wall_distance() + radius)

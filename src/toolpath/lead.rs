@@ -158,7 +158,7 @@ impl Ground<'_> {
             let link = Element::segment(here, center - touching.ahead * radius);
             let is_straight = (self.is_clear)(&link, job.wall_distance() + job.finish);
             if best.as_ref().is_none_or(|(r, s, _)| (radius, is_straight) > (*r, *s)) {
-                let begun = course.clone().begun_at(place, self.slack);
+                let begun = course.begun_at(place, self.slack);
                 best = Some((radius, is_straight, Lead { begun, ahead: touching.ahead, center, radius }));
             }
             if radius == wanted && is_straight {

@@ -19,6 +19,15 @@ use crate::geom::{Element, Point, Vector};
 /// would turn nearly by a right angle.
 const AHEAD: f64 = 1.5;
 
+/// Elements of a pass for which it is worth to know a link again.
+const LONG: usize = 1 << 10;
+
+/// Two arcs, and the place of the next pass that they lead to.
+type Bend = ([Element; 2], Place);
+
+/// What there is from the end of a pass to another: the pass, and the elements that it begins and ends with.
+pub(super) type KnownBend = ((usize, [Element; 2]), Option<Bend>);
+
 /// The pass in whose end the tool stands.
 pub(super) struct Last {
     pub pass: usize,
@@ -27,26 +36,26 @@ pub(super) struct Last {
 
 impl Planner<'_> {
     /// On from the end of the last pass, where that is a neighbor.
-    pub fn link(&mut self, ground: &Ground, pass: usize, course: &Course) -> Option<Course> {
-        let last = ground.last.as_ref()?;
+    pub fn link(&mut self, ground: &mut Ground, pass: usize, course: &Course) -> Option<Course> {
+        let last = ground.last.as_ref()?.pass;
         let doors = ground.nest.inner[pass].iter().chain(&ground.nest.outer[pass]);
-        doors.into_iter().find(|d| d.pass == last.pass)?;
+        doors.into_iter().find(|d| d.pass == last)?;
         let planned = ground.begin[pass];
         if planned.is_none()
-            && let Some((arcs, place)) = ground.bend(last, pass, course)
+            && let Some((arcs, place)) = ground.bend(pass, course)
         {
             arcs.iter().for_each(|arc| self.cut_link(arc));
             // Turned outward as far as that, the tool is as good as full from half its width on.
-            if ground.apart(pass, last.pass) > self.job.radius() {
+            if ground.apart(pass, last) > self.job.radius() {
                 self.amounts.full_width_length += arcs.iter().map(Element::length).sum::<f64>();
             }
-            return Some(course.clone().begun_at(place, ground.slack));
+            return Some(course.begun_at(place, ground.slack));
         }
         let here = self.cutter.at()?;
         [planned, Some(here)].into_iter().flatten().find_map(|place| {
-            let begun = course.clone().begun_at(course.nearest(place), ground.slack);
+            let begun = course.begun_at(course.nearest(place), ground.slack);
             let link = Element::segment(here, begun.start);
-            self.may_link(ground, &link, pass, last.pass).then(|| {
+            self.may_link(ground, &link, pass, last).then(|| {
                 // Straight across into what the next pass is to cut.
                 self.amounts.full_width_length += link.length();
                 self.cut_link(&link);
@@ -69,8 +78,21 @@ impl Planner<'_> {
 }
 
 impl Ground<'_> {
+    /// A link that bends outward from the last pass to the next one, if there is one: as it was found at a height
+    /// before, where the last pass was begun at the same place.
+    fn bend(&mut self, pass: usize, course: &Course) -> Option<Bend> {
+        let last = self.last.as_ref()?;
+        let ends = [*last.course.elements.first()?, *last.course.elements.last()?];
+        let known = self.bends.get(&pass).filter(|known| known.0 == (last.pass, ends));
+        let bend = known.map_or_else(|| self.new_bend(last, pass, course), |known| known.1);
+        if course.elements.len() >= LONG {
+            self.bends.insert(pass, ((last.pass, ends), bend));
+        }
+        bend
+    }
+
     /// A link that bends outward from a closed pass to the next one, and where it meets that.
-    fn bend(&self, last: &Last, pass: usize, course: &Course) -> Option<([Element; 2], Place)> {
+    fn new_bend(&self, last: &Last, pass: usize, course: &Course) -> Option<Bend> {
         let is_outward = self.nest.outer[last.pass].iter().any(|door| door.pass == pass);
         if !(is_outward && last.course.closed && course.closed) {
             return None;

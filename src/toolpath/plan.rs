@@ -14,7 +14,7 @@ use super::cutter::Cutter;
 use super::detour::Detours;
 use super::indexed::Indexed;
 use super::lead::ShortLeads;
-use super::link::Last;
+use super::link::{KnownBend, Last};
 use super::nest::{Nest, Pass, index};
 use super::roads::Roads;
 use super::width::Widths;
@@ -23,6 +23,7 @@ use crate::error::Error;
 use crate::geom::{ArcSpline, Bounds, Element, Point};
 use crate::offset::Level;
 use rstar::RTree;
+use std::collections::HashMap;
 use std::ops::Range;
 
 /// Largest number of moves of a path.
@@ -62,6 +63,8 @@ pub(super) struct Ground<'a> {
     /// Passes cut at the height at hand.
     pub done: Vec<bool>,
     pub last: Option<Last>,
+    /// How long passes were come to at the height before.
+    pub bends: HashMap<usize, KnownBend>,
     /// What of each pass has no neighbor inside; `None` where that is all of it. Empty if not asked for.
     pub fresh: Vec<Option<Vec<Element>>>,
     /// Where each pass should begin, if that is known before.
@@ -136,6 +139,7 @@ impl<'a> Planner<'a> {
             crests_of,
             done,
             last: None,
+            bends: HashMap::new(),
             fresh: Vec::new(),
             begin,
         };
@@ -269,7 +273,7 @@ impl<'a> Planner<'a> {
         for i in 0..self.job.spring {
             self.afford(course.elements.len() as u64)?;
             let way = if i % 2 == 0 { &back } else { course };
-            way.elements.iter().for_each(|e| self.cutter.cut(e));
+            self.cutter.cut_all(&way.elements);
         }
         Ok(())
     }

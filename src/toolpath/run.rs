@@ -27,6 +27,10 @@ impl Planner<'_> {
     pub fn run(&mut self, ground: &Ground, pass: usize, course: &Course) -> Result<(), Error> {
         let mut stops = ground.stops(pass, course).into_iter().peekable();
         let pace = ground.pace(self.job, pass, course);
+        if pace.is_even() && stops.peek().is_none() {
+            self.cutter.cut_all(&course.elements);
+            return Ok(());
+        }
         let mut start = 0.0;
         for (i, e) in course.elements.iter().enumerate() {
             let mut gone = 0.0;
