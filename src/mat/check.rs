@@ -160,7 +160,9 @@ impl Mat {
     pub(super) fn unit_distance(&self, c: Point, limit: f64) -> f64 {
         let mut best = limit + self.residual_error();
         self.bvh.search(SearchDisk { center: c, radius: best }, |i| {
-            let d = self.sites[i as usize].distance(c);
+            let site = &self.sites[i as usize];
+            // Where chords are short, the corners of many boxes lie in the disk.
+            let d = if site.is_beyond(c, best) { f64::INFINITY } else { site.distance(c) };
             (d < best).then(|| {
                 best = d;
                 SearchDisk { center: c, radius: d }

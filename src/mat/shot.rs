@@ -9,7 +9,7 @@
 use super::bvh::{Bvh, Reach, SearchDisk};
 use super::site::{Joint, NONE, Site};
 use super::touch::{Contact, Probe, Span, touch};
-use crate::geom::vector;
+use crate::geom::{Point, vector};
 use rayon::prelude::*;
 
 /// The maximal disk at a joint.
@@ -118,6 +118,7 @@ struct Growth<'a> {
     field: &'a Field<'a>,
     probe: Probe,
     best: Shot,
+    center: Point,
     /// The disk that osculates an arc at the joint, if it was that which held back first.
     osculating: Option<SearchDisk>,
     /// The disk as it is looked for in boxes.
@@ -141,11 +142,11 @@ impl<'a> Growth<'a> {
         });
         let nothing = Shot { radius: OUTSIDE, site: NONE, contact: Contact::Start };
         let (reach, tried) = (Reach::of(&disk), [nothing; TRIED]);
-        Growth { field, probe, best, osculating, reach, tried, count: 0 }
+        Growth { field, probe, best, center: disk.center, osculating, reach, tried, count: 0 }
     }
 
     fn disk(&self) -> SearchDisk {
-        SearchDisk { center: self.probe.center(self.best.radius), radius: self.best.radius }
+        SearchDisk { center: self.center, radius: self.best.radius }
     }
 
     /// Tries a site that may be near.
@@ -159,7 +160,8 @@ impl<'a> Growth<'a> {
     /// Lets a site hold the disk back; whether it makes it smaller.
     fn try_site(&mut self, i: u32) -> bool {
         // That which holds it back does so no more than it does.
-        if i == self.best.site && self.best.contact != Contact::Whole {
+        let is_known = i == self.best.site && self.best.contact != Contact::Whole;
+        if is_known || self.field.sites[i as usize].is_beyond(self.center, self.best.radius) {
             return false;
         }
         let shot = self.shot_at(i);
@@ -167,7 +169,7 @@ impl<'a> Growth<'a> {
             return false;
         }
         let shrunk = shot.radius < self.best.radius;
-        self.best = shot;
+        (self.best, self.center) = (shot, self.probe.center(shot.radius));
         shrunk
     }
 
