@@ -25,7 +25,7 @@ fn seconds(start: Instant) -> f64 {
 }
 
 fn main() -> Result<(), Error> {
-    rayon::ThreadPoolBuilder::new().num_threads(1).build_global().expect("one thread");
+    rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread().build_global().expect("one thread");
     let start = Instant::now();
     let number =
         |i: usize, default: usize| std::env::args().nth(i).and_then(|a| a.parse().ok()).unwrap_or(default);
