@@ -40,7 +40,7 @@ pub fn write(moves: &[Move], setup: &Setup) -> Result<Written, Error> {
 /// What was handed over before an error is no program.
 ///
 /// # Errors
-/// As for [`write`], and those of `put`.
+/// As for [`write()`], and those of `put`.
 pub fn write_to(
     moves: &[Move],
     setup: &Setup,
