@@ -36,7 +36,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             "pocket {}: {} passes, {:.3} mm2 out of reach",
             i + 1,
             pocket.passes,
-            pocket.unreachable_area
+            pocket.unreachable_area.unwrap_or(f64::NAN)
         );
     }
     for warning in &path.warnings {

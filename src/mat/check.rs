@@ -186,9 +186,11 @@ impl Mat {
         }
         let mut lone = self.graph.lone_disks().into_iter();
         for first in (0..count).filter(rings) {
-            if !walk.seen[first as usize]
-                && let Some(disk) = lone.next()
-            {
+            if walk.seen[first as usize] {
+                continue;
+            }
+            let is_left_out = pieces[first as usize].left_out;
+            if let Some(disk) = if is_left_out { Some(NONE) } else { lone.next() } {
                 self.walk_ring(first, disk, &mut walk)?;
             }
         }
@@ -215,20 +217,25 @@ impl Mat {
             walk.seen[at as usize] = true;
             let here = &self.graph.pieces[at as usize];
             let piece = self.graph.piece(&self.sites, at);
-            // A piece without an edge is the contact arc of one disk.
-            let ends = if here.edge == NONE { [disk; 2] } else { self.disks_of(at)? };
-            if ends[0] != disk {
+            // A piece without an edge is the contact arc of one disk, or left out; then no disk is known.
+            let ends = match here {
+                BoundaryPiece { left_out: true, .. } => [NONE; 2],
+                BoundaryPiece { edge: NONE, .. } => [disk; 2],
+                _ => self.disks_of(at)?,
+            };
+            if ends[0] != disk && ![disk, ends[0]].contains(&NONE) {
                 return None;
             }
             disk = ends[1];
             let touch = |foot, disk| Touch { site: piece.site, foot, disk };
-            walk.touches.extend([touch(piece.from, ends[0]), touch(piece.to, ends[1])]);
+            let touches = [touch(piece.from, ends[0]), touch(piece.to, ends[1])];
+            walk.touches.extend(touches.into_iter().filter(|touch| touch.disk != NONE));
             walk.sides += usize::from(here.edge != NONE);
             let after = self.graph.pieces.get(here.next as usize)?;
             walk.sites += usize::from(self.enters_site(here.site, after)?);
             at = here.next;
         }
-        (at == first && disk == begin).then_some(())
+        (at == first && (disk == begin || [disk, begin].contains(&NONE))).then_some(())
     }
 
     /// The disks at start and end of a piece that has an edge which knows it.
@@ -253,6 +260,10 @@ impl Mat {
     }
 
     fn check_topology(&self) -> Result<(), Mismatch> {
+        if self.least > 0.0 {
+            // What is left out may have been all that holds the rest together.
+            return Ok(());
+        }
         let (vertices, edges) = (self.graph.disks.len(), self.graph.edges.len());
         let components = components(&self.graph);
         if components != self.parts {

@@ -93,7 +93,9 @@ impl Circuit {
         let start = |first| {
             let start = site_start(graph, first);
             // A ring without edges is all contact arc: the pocket, or a part of it, is one disk.
-            let disk = start_disk(graph, start).or_else(|| lone.next()).unwrap_or(NONE);
+            let is_lone = !graph.pieces[start as usize].left_out;
+            let lone_disk = || if is_lone { lone.next() } else { None };
+            let disk = start_disk(graph, start).or_else(lone_disk).unwrap_or(NONE);
             [start, disk]
         };
         let mut starts: Vec<_> = (0u32..).zip(firsts.into_iter().map(start)).collect();
@@ -147,6 +149,8 @@ impl Circuit {
                 let backward = edge.is_some_and(|e| e.pieces[1] == at);
                 let stop = self.stops.len() as u32;
                 stop_of[at as usize] = stop;
+                // Where something is left out, the edges on either side do not meet in a disk.
+                disk = edge.map_or(disk, |e| e.disks[usize::from(backward)]);
                 let touching = graph.disks.get(disk as usize);
                 let (center, radius) = touching.map_or((from.point, 0.0), |d| (d.center, d.radius));
                 let across = edge.map_or(NONE, |e| e.pieces[usize::from(!backward)]);

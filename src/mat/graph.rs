@@ -1,6 +1,5 @@
 //! The axis as a graph under construction: disks, pieces of the boundary, and edges between them.
 
-use super::face::Slot;
 use super::lamination::Lamination;
 use super::patch::Faces;
 use super::piece::{Piece, UnitDisk, cut_vertex};
@@ -23,6 +22,8 @@ pub(crate) struct BoundaryPiece {
     pub edge: u32,
     /// Whether it begins where its site does.
     pub begins: bool,
+    /// Whether the axis beside it is left out.
+    pub left_out: bool,
 }
 
 /// An edge of the axis between the pieces on its two sides.
@@ -50,12 +51,12 @@ pub(crate) struct Graph {
 pub(super) const DISK_ROUNDINGS: f64 = 32.0;
 
 impl Graph {
-    /// The graph of a lamination: all faces solved.
-    pub(super) fn of(sites: &[Site], mut map: Lamination, error: f64) -> Graph {
+    /// The graph of a lamination: all faces solved, or those with a free site.
+    pub(super) fn of(sites: &[Site], mut map: Lamination, free: Option<&[bool]>, error: f64) -> Graph {
         let mut graph = Graph { disks: std::mem::take(&mut map.disks), error, ..Graph::default() };
         graph.pieces = map.pieces(sites);
         map.forget_contacts();
-        let faces = Graph::faces_of(&map);
+        let faces = graph.faces_of(&map, free);
         // What follows needs the faces alone.
         drop(map);
         faces.solve(sites, &mut graph);
@@ -76,24 +77,44 @@ impl Graph {
         Piece { site, from, to, vertices: [v0, v1] }
     }
 
-    fn faces_of(map: &Lamination) -> Faces {
-        let mut seen = vec![false; map.visits.len()];
+    /// The faces of a map; only those with a site that is free, if only such are asked for.
+    fn faces_of(&mut self, map: &Lamination, free: Option<&[bool]>) -> Faces {
         let mut faces = Faces::with_capacity(map.visits.len());
-        for row in &map.rows {
-            for first in row.clone() {
-                let mut at = first;
-                while !seen[at as usize] {
-                    seen[at as usize] = true;
-                    let visit = &map.visits[at as usize];
-                    if !visit.crossed {
-                        faces.push(Slot { piece: at, disk: visit.disk });
-                    }
-                    at = if visit.partner + 1 == row.end { row.start } else { visit.partner + 1 };
-                }
-                faces.close();
+        let Some(free) = free else {
+            map.each_slot(|slot| match slot {
+                Some(slot) => faces.push(slot),
+                None => faces.close(),
+            });
+            return faces;
+        };
+        let mut is_asked_for = vec![false; self.disks.len()];
+        map.each_slot(|slot| {
+            if let Some(slot) = slot {
+                return faces.push(slot);
             }
-        }
+            if faces.open().iter().any(|slot| free[self.pieces[slot.piece as usize].site as usize]) {
+                faces.open().iter().for_each(|slot| is_asked_for[slot.disk as usize] = true);
+                faces.close();
+            } else {
+                faces.open().iter().for_each(|slot| self.pieces[slot.piece as usize].left_out = true);
+                faces.leave_out();
+            }
+        });
+        faces.renumber_disks(&self.keep_disks(&is_asked_for));
         faces
+    }
+
+    /// Drops the other disks; the new number of each that is kept.
+    fn keep_disks(&mut self, is_kept: &[bool]) -> Vec<u32> {
+        let mut numbers = Vec::with_capacity(is_kept.len());
+        let mut count = 0;
+        for &is_kept in is_kept {
+            numbers.push(count);
+            count += u32::from(is_kept);
+        }
+        let mut kept = is_kept.iter();
+        self.disks.retain(|_| kept.next().is_some_and(|&is_kept| is_kept));
+        numbers
     }
 
     /// Makes room for so many more.
@@ -111,6 +132,7 @@ impl Graph {
             next: NONE,
             edge: NONE,
             begins: false,
+            left_out: false,
         };
         self.pieces.extend(rests.iter().map(rest));
     }

@@ -20,6 +20,7 @@
 use super::apart::set_apart;
 use super::check::Doubt;
 use super::contacts::{ContactItem, Order, contacts};
+use super::face::Slot;
 use super::graph::BoundaryPiece;
 use super::piece::UnitDisk;
 use super::shot::Shot;
@@ -277,6 +278,39 @@ impl Lamination {
         pieces
     }
 
+    /// Shows the faces: the piece and the disk at each visit that ends one, then nothing at the end of the face.
+    pub fn each_slot(&self, mut show: impl FnMut(Option<Slot>)) {
+        let mut seen = vec![false; self.visits.len()];
+        for row in &self.rows {
+            for first in row.clone() {
+                let mut at = first;
+                if seen[at as usize] {
+                    continue;
+                }
+                while !seen[at as usize] {
+                    seen[at as usize] = true;
+                    let visit = &self.visits[at as usize];
+                    if !visit.crossed {
+                        show(Some(Slot { piece: at, disk: visit.disk }));
+                    }
+                    at = if visit.partner + 1 == row.end { row.start } else { visit.partner + 1 };
+                }
+                show(None);
+            }
+        }
+    }
+
+    /// The joint in which the piece of a visit ends, unless it ends in a contact.
+    pub fn joint_at(&self, visit: u32, sites: &[Site]) -> Option<u32> {
+        Some(self.visits[visit as usize].item).filter(|&item| (item as usize) < sites.len())
+    }
+
+    /// The site of the piece that ends at a visit.
+    pub fn site_at(&self, visit: u32, sites: &[Site]) -> u32 {
+        let Visit { item, .. } = self.visits[visit as usize];
+        item.checked_sub(sites.len() as u32).map_or(item, |c| self.contacts[c as usize].site)
+    }
+
     /// Gives back what only pieces are made of.
     pub fn forget_contacts(&mut self) {
         self.contacts = Vec::new();
@@ -288,7 +322,7 @@ impl Lamination {
         let site = item.checked_sub(n).map_or(item, |c| self.contacts[c as usize].site);
         let contact = self.visits[before as usize].item.checked_sub(n);
         let from = contact.map_or(sites[site as usize].start, |c| self.contacts[c as usize].foot);
-        BoundaryPiece { from, site, next: NONE, edge: NONE, begins: contact.is_none() }
+        BoundaryPiece { from, site, next: NONE, edge: NONE, begins: contact.is_none(), left_out: false }
     }
 
     /// For every item, the visit whose piece follows on the boundary.

@@ -18,6 +18,7 @@
 //!
 //! [`Pocket`]: crate::Pocket
 
+mod above;
 mod apart;
 mod bvh;
 mod check;
@@ -32,6 +33,7 @@ mod graph;
 mod kinds;
 mod lamination;
 mod leg;
+mod low;
 mod patch;
 mod piece;
 mod query;

@@ -36,11 +36,25 @@ impl Faces {
 
     /// Ends a face; one of less than two pieces has no edge.
     pub fn close(&mut self) {
-        let begin = self.ends.last().map_or(0, |&end| end as usize);
-        match self.slots.len() - begin {
-            0 | 1 => self.slots.truncate(begin),
+        match self.open().len() {
+            0 | 1 => self.leave_out(),
             _ => self.ends.push(self.slots.len() as u32),
         }
+    }
+
+    /// The face that is not ended yet.
+    pub fn open(&self) -> &[Slot] {
+        &self.slots[self.ends.last().map_or(0, |&end| end as usize)..]
+    }
+
+    /// Drops the face that is not ended yet.
+    pub fn leave_out(&mut self) {
+        self.slots.truncate(self.ends.last().map_or(0, |&end| end as usize));
+    }
+
+    /// Gives disks other numbers.
+    pub fn renumber_disks(&mut self, number: &[u32]) {
+        self.slots.iter_mut().for_each(|slot| slot.disk = number[slot.disk as usize]);
     }
 
     /// Solves all faces.

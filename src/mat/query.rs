@@ -113,9 +113,7 @@ fn gap(path: &Element, site: &Site) -> f64 {
             best = best.min(site.distance(path.point_at(t)));
         }
     };
-    let center = (!site.is_vertex && site.curvature != 0.0)
-        .then(|| site.start.point + site.start.normal / site.curvature)
-        .filter(|c| c.is_finite());
+    let center = site.center();
     match path.center() {
         None => {
             if let Some(c) = center {
@@ -151,9 +149,7 @@ fn crosses(path: &Element, site: &Site) -> bool {
             cuts.push(t);
         }
     };
-    let center = (site.curvature != 0.0)
-        .then(|| site.start.point + site.start.normal / site.curvature)
-        .filter(|c| c.is_finite());
+    let center = site.center();
     match (path.center(), center) {
         (None, Some(c)) => cut_at(c),
         (Some((own, radius)), c) => {

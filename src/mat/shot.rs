@@ -36,23 +36,9 @@ const ROUND: f64 = 16.0;
 /// Larger than any disk in the unit frame.
 const OUTSIDE: f64 = 2.0;
 
-/// The disks at the ends of all sites; `blur` is the largest angle at a joint that was taken for round-off.
-pub(super) fn shoot_all(sites: &[Site], bvh: &Bvh, blur: f64) -> Vec<Shot> {
-    let field = Field { sites, bvh, leaves: bvh.leaves(), blur };
-    let mut shots = vec![Shot { radius: 0.0, site: NONE, contact: Contact::Start }; sites.len()];
-    shots.par_chunks_mut(RUN).enumerate().for_each(|(run, chunk)| {
-        let mut hints = Hints([NONE; 6]);
-        for (i, shot) in chunk.iter_mut().enumerate() {
-            let joint = (run * RUN + i) as u32;
-            if sites[joint as usize].joint != Joint::Convex {
-                *shot = field.shoot(joint, &hints);
-                if shot.contact != Contact::Whole {
-                    hints.remember(shot.site);
-                }
-            }
-        }
-    });
-    shots
+impl Shot {
+    /// No disk: that of a convex corner, or of a joint that is left out.
+    pub const NONE: Shot = Shot { radius: 0.0, site: NONE, contact: Contact::Start };
 }
 
 /// Sites touched last, the newest first.
@@ -77,21 +63,54 @@ pub(super) fn probe_at(site: &Site) -> Probe {
 }
 
 /// What shots may meet.
-struct Field<'a> {
-    sites: &'a [Site],
-    bvh: &'a Bvh,
+pub(super) struct Field<'a> {
+    pub sites: &'a [Site],
+    pub bvh: &'a Bvh,
     /// The leaf of each site.
     leaves: Vec<u32>,
     /// Largest angle at a joint that was taken for round-off.
     blur: f64,
 }
 
-impl Field<'_> {
-    /// The maximal disk at a joint.
-    fn shoot(&self, joint: u32, hints: &Hints) -> Shot {
+impl<'a> Field<'a> {
+    /// Some sites with their hierarchy; `blur` is the largest angle at a joint that was taken for round-off.
+    pub fn new(sites: &'a [Site], bvh: &'a Bvh, blur: f64) -> Field<'a> {
+        Field { sites, bvh, leaves: bvh.leaves(), blur }
+    }
+
+    /// The disks at the ends of all sites. Of a disk that comes to be smaller than `floor` no more is known than that.
+    pub fn shoot_all(&self, floor: f64) -> Vec<Shot> {
+        let mut shots = vec![Shot::NONE; self.sites.len()];
+        shots.par_chunks_mut(RUN).enumerate().for_each(|(run, chunk)| {
+            let mut hints = Hints([NONE; 6]);
+            for (i, shot) in chunk.iter_mut().enumerate() {
+                let joint = (run * RUN + i) as u32;
+                if self.sites[joint as usize].joint != Joint::Convex {
+                    *shot = self.shoot(joint, &hints, floor);
+                    if shot.contact != Contact::Whole {
+                        hints.remember(shot.site);
+                    }
+                }
+            }
+        });
+        shots
+    }
+
+    /// The disks at some joints, each with a site that holds it back.
+    pub fn shoot_some(&self, joints: &[(u32, u32)]) -> Vec<Shot> {
+        let shoot = |&(joint, near): &(u32, u32)| {
+            let mut hints = Hints([NONE; 6]);
+            hints.remember(near);
+            self.shoot(joint, &hints, 0.0)
+        };
+        joints.par_iter().with_min_len(RUN).map(shoot).collect()
+    }
+
+    /// The maximal disk at a joint, or one below `floor` that is not smaller.
+    fn shoot(&self, joint: u32, hints: &Hints, floor: f64) -> Shot {
         let sites = self.sites;
         let site = &sites[joint as usize];
-        let mut growth = Growth::of(self, joint);
+        let mut growth = Growth { floor, ..Growth::of(self, joint) };
         for &hint in hints.0.iter().filter(|&&h| h != NONE) {
             growth.glance(hint);
         }
@@ -108,7 +127,9 @@ impl Field<'_> {
             growth.glance(back);
             growth.glance(ahead);
         }
-        self.bvh.search(growth.disk(), |i| growth.try_site(i).then(|| growth.disk()));
+        if !growth.is_done() {
+            self.bvh.search(growth.disk(), |i| growth.try_site(i).then(|| growth.disk_if_open()));
+        }
         growth.best
     }
 }
@@ -121,6 +142,8 @@ struct Growth<'a> {
     center: Point,
     /// The disk that osculates an arc at the joint, if it was that which held back first.
     osculating: Option<SearchDisk>,
+    /// Below this radius it is looked for no further.
+    floor: f64,
     /// The disk as it is looked for in boxes.
     reach: Reach,
     /// What was tried first, as the hierarchy will come to it again.
@@ -142,17 +165,29 @@ impl<'a> Growth<'a> {
         });
         let nothing = Shot { radius: OUTSIDE, site: NONE, contact: Contact::Start };
         let (reach, tried) = (Reach::of(&disk), [nothing; TRIED]);
-        Growth { field, probe, best, center: disk.center, osculating, reach, tried, count: 0 }
+        Growth { field, probe, best, center: disk.center, osculating, floor: 0.0, reach, tried, count: 0 }
     }
 
     fn disk(&self) -> SearchDisk {
         SearchDisk { center: self.center, radius: self.best.radius }
     }
 
+    /// Whether the disk is so small that no more is asked.
+    fn is_done(&self) -> bool {
+        self.best.radius < self.floor
+    }
+
+    /// The disk while more is asked, then nothing.
+    fn disk_if_open(&self) -> SearchDisk {
+        let disk = self.disk();
+        if self.is_done() { SearchDisk { radius: 0.0, ..disk } } else { disk }
+    }
+
     /// Tries a site that may be near.
     #[inline]
     fn glance(&mut self, i: u32) {
-        if self.field.bvh.meets(self.field.leaves[i as usize], &self.reach) && self.try_site(i) {
+        let is_near = || self.field.bvh.meets(self.field.leaves[i as usize], &self.reach);
+        if !self.is_done() && is_near() && self.try_site(i) {
             self.reach = Reach::of(&self.disk());
         }
     }

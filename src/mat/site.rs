@@ -59,10 +59,22 @@ impl Site {
         if self.curvature > 0.0 && !self.is_vertex { self.curvature.recip() } else { f64::INFINITY }
     }
 
+    /// The center of an arc.
+    pub fn center(&self) -> Option<Point> {
+        let center = || self.start.point + self.start.normal / self.curvature;
+        (!self.is_vertex && self.curvature != 0.0).then(center).filter(|c| c.is_finite())
+    }
+
     /// Whether it is a segment.
     #[inline]
     pub fn is_straight(&self) -> bool {
         self.curvature == 0.0 && !self.is_vertex
+    }
+
+    /// More than how far it is from its chord: `k c^2 / (4 + 4 cos(sweep / 2))`, with the chord `c`.
+    pub fn sagitta(&self) -> f64 {
+        let square = (self.end.point - self.start.point).length_squared();
+        if self.is_vertex { 0.0 } else { 0.25 * self.curvature.abs() * square }
     }
 
     /// A box around it, at most twice as deep as its sagitta: around ends and tangents' meet.
@@ -101,6 +113,13 @@ impl Site {
     pub fn nearer_end(&self, c: Point) -> Foot {
         let to_start = (c - self.start.point).length_squared();
         if to_start <= (c - self.end.point).length_squared() { self.start } else { self.end }
+    }
+
+    /// The place on the site nearest to a place.
+    pub fn nearest(&self, c: Point) -> Point {
+        let (s, normal) = self.carrier_distance(c);
+        let foot = c - normal * s;
+        if self.is_vertex || self.spans(foot) { foot } else { self.nearer_end(c).point }
     }
 
     /// Distance of a place to the site itself.

@@ -1,5 +1,6 @@
 //! The transform as a whole.
 
+use super::above::{Above, first_lost};
 use super::bvh::Bvh;
 use super::check::Doubt;
 use super::conic::bezier;
@@ -7,10 +8,11 @@ use super::frame::Frame;
 use super::graph::{DISK_ROUNDINGS, Graph};
 use super::kinds::Kinds;
 use super::lamination::Lamination;
+use super::low::Floor;
 use super::piece::UnitDisk;
 use super::radii::Radii;
-use super::shot::shoot_all;
-use super::site::{NONE, Site};
+use super::shot::Field;
+use super::site::Site;
 use super::sites::Sites;
 use super::stages::{Laps, Stages};
 use super::{AxisEdge, AxisVertex, Disk};
@@ -34,6 +36,8 @@ pub struct Mat {
     pub(super) parts: usize,
     /// Largest angle at a joint that was taken for round-off.
     pub(super) blur: f64,
+    /// Radius from which on it is whole, in the unit frame.
+    pub(super) least: f64,
     stages: Stages,
     radii: OnceLock<Radii>,
 }
@@ -99,13 +103,38 @@ impl Pocket {
     /// # Errors
     /// [`Error::Internal`] when the loops do not bound a pocket after all.
     pub fn medial_axis(&self) -> Result<Mat, Error> {
+        let axis = self.axis_above(0.0)?;
+        axis.ok_or_else(|| Error::Internal { what: "an axis is empty".into(), at: self.bounds().center() })
+    }
+
+    /// What of the medial axis transform a disk of this radius (in job units) can get to: all vertices and
+    /// edges with disks as large as that, and some with smaller ones around them. Everything that is asked of
+    /// it about distances from that radius on is as the whole axis tells it: [level sets](Mat::level),
+    /// [the largest disk](Mat::largest_disk), parts and passages of [`Mat::levels`]. Little is computed along
+    /// walls where no such disk fits, so that with a large tool fine detail costs little; where most disks are nearly
+    /// as large, it is the whole axis. `None` where none fits anywhere.
+    ///
+    /// # Errors
+    /// [`Error::Internal`] when the loops do not bound a pocket after all.
+    pub fn medial_axis_above(&self, radius: f64) -> Result<Option<Mat>, Error> {
+        self.axis_above(radius)
+    }
+
+    fn axis_above(&self, radius: f64) -> Result<Option<Mat>, Error> {
         let frame = Frame::around(&self.bounds());
+        let least = frame.length_in(radius);
+        if least > 1.0 {
+            // The pocket is no longer than that.
+            return Ok(None);
+        }
         let mut failure = None;
         for angle in DIRECTIONS {
-            match laminate(self, &frame, Vector::from_angle(angle)) {
-                Ok((all, bvh, map, union, stages)) => {
-                    let mat = || Mat::build(frame, all, bvh, map, stages);
-                    if union.0 <= UNION_ERROR {
+            match laminate(self, &frame, Vector::from_angle(angle), least) {
+                Ok(None) => return Ok(None),
+                Ok(Some(laminated)) => {
+                    let (union, _) = laminated.map.widest_union;
+                    let mat = || Mat::of_map(frame, laminated, least);
+                    if union <= UNION_ERROR {
                         return Ok(mat());
                     }
                     // Better an axis that says where it is doubtful than none.
@@ -125,34 +154,69 @@ impl Pocket {
     }
 }
 
-type Laminated = (Sites, Bvh, Lamination, (f64, Point), Stages);
+/// Sites and map of a pocket for one direction of links.
+struct Laminated {
+    all: Sites,
+    bvh: Bvh,
+    map: Lamination,
+    /// The sites that are asked for, if not all are.
+    free: Option<Vec<bool>>,
+    stages: Stages,
+}
 
-/// Sites, shots and map for one direction of links; the place of a shot into nothing otherwise.
-fn laminate(pocket: &Pocket, frame: &Frame, direction: Vector) -> Result<Laminated, Point> {
+/// Sites, shots and map for one direction of links, from a radius up: none where no disk is so large. The place of a
+/// shot into nothing otherwise.
+fn laminate(
+    pocket: &Pocket,
+    frame: &Frame,
+    direction: Vector,
+    least: f64,
+) -> Result<Option<Laminated>, Point> {
     let (mut laps, mut stages) = (Laps::start(), Stages::default());
     let all = Sites::of(pocket, frame, direction);
     stages.sites = laps.lap();
     let bvh = Bvh::sorted(&all.sites.iter().map(Site::bounds).collect::<Vec<_>>());
     stages.boxes = laps.lap();
-    let shots = shoot_all(&all.sites, &bvh, all.blur);
-    stages.shots = laps.lap();
-    let lost =
-        (0..shots.len()).find(|&i| shots[i].site == NONE && all.sites[i].joint != super::site::Joint::Convex);
-    if let Some(i) = lost {
-        return Err(all.sites[i].end.point);
-    }
-    let map = Lamination::of(&all, &shots, Doubt::of(frame.noise, all.blur))
-        .ok_or_else(|| all.sites.first().map_or(Point::default(), |s| s.end.point))?;
-    let union = map.widest_union;
+    let field = Field::new(&all.sites, &bvh, all.blur);
+    let doubt = Doubt::of(frame.noise, all.blur);
+    let floor = Floor { radius: least - doubt.disks, error: doubt.disks };
+    let place = |joint: u32| all.sites[joint as usize].end.point;
+    let nowhere = || all.sites.first().map_or(Point::default(), |s| s.end.point);
+    let (map, free) = if floor.radius > 0.0 && Above::pays(&field, floor) {
+        let Some(mut above) = Above::of(&all, &field, floor).map_err(place)? else { return Ok(None) };
+        stages.shots = laps.lap();
+        (above.map(&all, &field, doubt).ok_or_else(nowhere)?, Some(above.free))
+    } else {
+        let shots = field.shoot_all(0.0);
+        stages.shots = laps.lap();
+        first_lost(&all.sites, &shots).map_or(Ok(()), |joint| Err(place(joint)))?;
+        (Lamination::of(&all, &shots, doubt).ok_or_else(nowhere)?, None)
+    };
     stages.map = laps.lap();
-    Ok((all, bvh, map, union, stages))
+    Ok(Some(Laminated { all, bvh, map, free, stages }))
 }
 
 impl Mat {
-    pub(super) fn build(frame: Frame, all: Sites, bvh: Bvh, map: Lamination, stages: Stages) -> Mat {
+    /// The transform of a map, if it has disks as large as is asked.
+    fn of_map(frame: Frame, laminated: Laminated, least: f64) -> Option<Mat> {
+        let Laminated { all, bvh, map, free, stages } = laminated;
+        let mat = Mat::build(frame, all, bvh, (map, free.as_deref()), stages);
+        // A comparison that holds for NaN: then all is asked for.
+        let is_small = |disk: &UnitDisk| disk.radius < least - mat.graph.error;
+        let is_nothing = mat.graph.disks.iter().all(is_small);
+        (!is_nothing).then_some(Mat { least: if free.is_some() { least } else { 0.0 }, ..mat })
+    }
+
+    pub(super) fn build(
+        frame: Frame,
+        all: Sites,
+        bvh: Bvh,
+        (map, free): (Lamination, Option<&[bool]>),
+        stages: Stages,
+    ) -> Mat {
         let mut laps = Laps::start();
         let parts = map.parts(&all);
-        let mut graph = Graph::of(&all.sites, map, DISK_ROUNDINGS * frame.noise);
+        let mut graph = Graph::of(&all.sites, map, free, DISK_ROUNDINGS * frame.noise);
         let faces = laps.lap();
         graph.contract();
         let mat = Mat::of_graph(frame, all, bvh, graph, parts);
@@ -166,7 +230,7 @@ impl Mat {
         graph.shrink();
         let kinds = Kinds::of(&graph);
         let (sites, blur, stages, radii) = (all.sites, all.blur, Stages::default(), OnceLock::new());
-        Mat { frame, sites, bvh, graph, kinds, islands, parts, blur, stages, radii }
+        Mat { frame, sites, bvh, graph, kinds, islands, parts, blur, least: 0.0, stages, radii }
     }
 
     /// The index by radius, made when the first level asks for it.
@@ -199,6 +263,11 @@ impl Mat {
     /// How much there is of everything.
     pub fn counts(&self) -> Counts {
         Counts { sites: self.sites.len(), vertices: self.graph.disks.len(), edges: self.graph.edges.len() }
+    }
+
+    /// The radius from which on it is whole, in job units: 0 for a whole axis.
+    pub fn least_radius(&self) -> f64 {
+        self.frame.length_out(self.least)
     }
 
     /// How long each stage took.

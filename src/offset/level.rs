@@ -30,7 +30,8 @@ impl Level {
 impl Mat {
     /// The level set at distance `d`, in job units: the boundary of {distance > d}, and ridges where
     /// the distance is `d` (to round-off) and no area remains. Empty when nothing is that far away;
-    /// the boundary itself is not a level set, so `d` must be above 0 to give any.
+    /// the boundary itself is not a level set, so `d` must be above 0 to give any. Below the [radius from which on
+    /// the axis is whole](Mat::least_radius) something may be missing.
     pub fn level(&self, d: f64) -> Level {
         self.level_of(d, None)
     }

@@ -10,8 +10,11 @@ use std::f64::consts::{PI, TAU};
 
 impl Mat {
     /// Area of the pocket that a disk of this radius, moved inside, cannot reach, in square job units.
-    /// Exact to round-off.
+    /// Exact to round-off; NaN where the axis is not whole, which does not tell.
     pub fn unreachable_area(&self, radius: f64) -> f64 {
+        if self.least_radius() > 0.0 {
+            return f64::NAN;
+        }
         let whole = self.area();
         let unit = self.frame.length_in(radius);
         if unit.is_nan() || unit <= 0.0 {

@@ -80,6 +80,9 @@ impl Roads<'_> {
     /// The end of the axis round which a piece is a contact arc.
     fn leaf_of(&self, piece: u32) -> Option<(Spot, usize)> {
         let pieces = &self.mat.graph.pieces;
+        if pieces[piece as usize].left_out {
+            return None;
+        }
         let mut at = pieces[piece as usize].next;
         while at != piece && at != NONE && pieces[at as usize].edge == NONE {
             at = pieces[at as usize].next;

@@ -56,8 +56,9 @@ pub struct PocketPath {
     pub totals: Totals,
     /// Largest tool diameter that fits, less the stock to leave on both sides.
     pub largest_tool: f64,
-    /// Area that the tool cannot reach, the stock to leave included.
-    pub unreachable_area: f64,
+    /// Area that the tool cannot reach, the stock to leave included. An axis [from a radius
+    /// up](crate::Pocket::medial_axis_above) does not tell it, nor the two below.
+    pub unreachable_area: Option<f64>,
     /// The places of that area, that which reaches farthest beyond the tool first: at most a thousand.
     pub unreachable: Vec<Rest>,
     /// Width of the narrowest neck, where there is one.
@@ -86,7 +87,8 @@ impl PocketPath {
 }
 
 impl Job {
-    /// Plans the path through pockets given by their axes.
+    /// Plans the path through pockets given by their axes. Axes [from the distance of the wall passes
+    /// up](crate::Pocket::medial_axis_above) do, where nobody asks what is out of reach.
     ///
     /// # Errors
     /// [`Error::Parameter`] for a number out of its range, [`Error::Effort`] when levels or moves
@@ -103,6 +105,12 @@ impl Job {
     /// [`Error::Parameter`] for a number out of its range, [`Error::Effort`] when they are too many.
     pub fn levels(&self, mat: &Mat) -> Result<Vec<Level>, Error> {
         self.validate()?;
+        let least = mat.least_radius();
+        if least > self.distance(0) {
+            let (name, range) =
+                ("the radius from which on an axis is whole", "that of the wall passes at most");
+            return Err(Error::Parameter { name, value: least, range });
+        }
         self.levels_up_to(mat.largest_disk().radius, &|d| mat.level(d))
     }
 
@@ -121,10 +129,11 @@ impl Job {
         self.note_step(&mut path);
         let mut planner = Planner::new(self);
         for (pocket, (mat, levels)) in mats.iter().zip(&levels).enumerate() {
-            let (largest, neck) = (mat.largest_disk(), mat.narrowest_neck());
+            let is_whole = mat.least_radius() == 0.0;
+            let (largest, neck) = (mat.largest_disk(), mat.narrowest_neck().filter(|_| is_whole));
             let own = PocketPath {
                 largest_tool: 2.0 * (largest.radius - self.stock),
-                unreachable_area: mat.unreachable_area(self.wall_distance()),
+                unreachable_area: is_whole.then(|| mat.unreachable_area(self.wall_distance())),
                 narrowest_neck: neck.map(|d| 2.0 * d.radius),
                 machined: !levels.is_empty(),
                 ..PocketPath::default()
@@ -162,7 +171,9 @@ impl Job {
         let ready = |planner: &Planner, own: &mut PocketPath, i: usize| {
             let roads = Roads::new(&mats[i]);
             own.most_retracts = self.most_retracts(&mats[i], &levels[i]);
-            own.unreachable = rest(&roads, self.wall_distance(), self.overlap());
+            if own.unreachable_area.is_some() {
+                own.unreachable = rest(&roads, self.wall_distance(), self.overlap());
+            }
             planner.prepare(&levels[i], &is_clear[i], Some(roads))
         };
         let heights = self.heights().len();
@@ -313,7 +324,7 @@ impl Job {
                 pocket,
                 at: neck.center,
                 width: 2.0 * (neck.radius - self.stock),
-                area: own.unreachable_area,
+                area: own.unreachable_area.unwrap_or_default(),
             });
         }
     }

@@ -58,7 +58,7 @@ fn machine() -> Result<Exit, Failure> {
     set_threads(&args)?;
     let mut timings = Timings::default();
     let progress = Progress::new(args.quiet);
-    let mut plan = Plan::new(&args, &progress, &mut timings)?;
+    let mut plan = Plan::new(&args, &outputs, &progress, &mut timings)?;
     let setup = args.setup(&plan.job, &plan.source)?;
     progress.stage("judging");
     let verdict = args.verify.then(|| Verdict::of(&plan));

@@ -88,6 +88,12 @@ impl Outputs {
         Ok(())
     }
 
+    /// Whether nothing is asked for but programs, so that nobody will know of what the tool does not reach.
+    pub fn is_program_alone(&self, args: &Args) -> bool {
+        let is_told = !args.quiet || args.report == ReportArg::Json || args.strict || args.verify;
+        !is_told && self.has_program() && self.files.iter().all(|(_, form)| *form == Form::Gcode)
+    }
+
     fn has_program(&self) -> bool {
         self.standard_output || self.files.iter().any(|(_, form)| *form == Form::Gcode)
     }

@@ -3,6 +3,7 @@
 use crate::args::Args;
 use crate::failure::Failure;
 use crate::notice::Notice;
+use crate::outputs::Outputs;
 use crate::progress::Progress;
 use crate::timings::{Timings, timed};
 use medial::io::dxf::{self, Drawing, Sheet};
@@ -26,9 +27,14 @@ pub struct Plan {
 
 impl Plan {
     /// Reads, chains, builds the axes, plans. What is known by then is printed before an error.
-    pub fn new(args: &Args, progress: &Progress, timings: &mut Timings) -> Result<Plan, Failure> {
+    pub fn new(
+        args: &Args,
+        outputs: &Outputs,
+        progress: &Progress,
+        timings: &mut Timings,
+    ) -> Result<Plan, Failure> {
         let mut notices = Vec::new();
-        Plan::with_notices(args, progress, timings, &mut notices).inspect_err(|_| {
+        Plan::with_notices(args, outputs, progress, timings, &mut notices).inspect_err(|_| {
             progress.clear();
             if !args.quiet {
                 Notice::print_all(&notices);
@@ -38,6 +44,7 @@ impl Plan {
 
     fn with_notices(
         args: &Args,
+        outputs: &Outputs,
         progress: &Progress,
         timings: &mut Timings,
         notices: &mut Vec<Notice>,
@@ -54,9 +61,8 @@ impl Plan {
         let pockets = pockets(&drawing, tolerance, from_depth, timings, notices)
             .map_err(|failure| failure.or_inspect(&args.drawing))?;
         progress.stage("medial axis");
-        let mats = timed(&mut timings.axis, || {
-            pockets.iter().map(Pocket::medial_axis).collect::<Result<Vec<_>, _>>()
-        })?;
+        let least = outputs.is_program_alone(args).then(|| job.wall_distance());
+        let (pockets, mats) = timed(&mut timings.axis, || axes(pockets, least))?;
         progress.stage("offsets");
         let levels = timed(&mut timings.offsets, || {
             let levels = |mat: &Mat| certified(mat, tolerance).and_then(|mat| job.levels(mat));
@@ -105,6 +111,21 @@ impl Plan {
             .path(&self.path.moves)
             .to_svg()
     }
+}
+
+/// The axes of all pockets; where only a radius is asked for, those of the pockets in which a disk of it fits, and no
+/// more of them than is needed. Where it fits nowhere, whole axes tell what does.
+fn axes(pockets: Vec<Pocket>, least: Option<f64>) -> Result<(Vec<Pocket>, Vec<Mat>), Error> {
+    if let Some(least) = least {
+        let above: Vec<Option<Mat>> =
+            pockets.iter().map(|pocket| pocket.medial_axis_above(least)).collect::<Result<_, _>>()?;
+        if above.iter().any(Option::is_some) {
+            let both = pockets.into_iter().zip(above);
+            return Ok(both.filter_map(|(pocket, mat)| Some((pocket, mat?))).unzip());
+        }
+    }
+    let mats = pockets.iter().map(Pocket::medial_axis).collect::<Result<_, _>>()?;
+    Ok((pockets, mats))
 }
 
 /// An axis, unless it does not keep the tolerance: no program is better than one that cuts elsewhere.

@@ -31,7 +31,7 @@ struct PocketReport<'a> {
     islands: usize,
     arcs: usize,
     largest_tool: f64,
-    unreachable_area: f64,
+    unreachable_area: Option<f64>,
     unreachable: &'a [Rest],
     narrowest_neck: Option<f64>,
     passes: usize,
@@ -62,6 +62,11 @@ impl<'a> PocketReport<'a> {
 }
 
 impl PocketReport<'_> {
+    /// How much the tool cannot reach.
+    fn out_of_reach(&self, unit: &str) -> String {
+        self.unreachable_area.map_or(String::new(), |area| format!(", {area:.4} {unit}2 out of reach"))
+    }
+
     /// How the pocket is cut, for people.
     fn details(&self, unit: &str) -> String {
         if self.passes == 0 {
@@ -147,7 +152,7 @@ impl<'a> Report<'a> {
                     let _ =
                         write!(text, " and {crests} along the axis ({:.1} {unit})", p.amounts.crest_length);
                 }
-                let _ = writeln!(text, ", {:.4} {unit}2 out of reach", p.unreachable_area);
+                let _ = writeln!(text, "{}", p.out_of_reach(unit));
                 text.write_str(&p.details(unit))
             } else {
                 writeln!(text, ", left out")

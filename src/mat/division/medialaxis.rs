@@ -61,7 +61,8 @@ impl<'a> Division<'a> {
         let mut graph = Graph { error, ..Graph::default() };
         for (id, site) in (0u32..).zip(&all.sites) {
             let (from, next) = (site.start, site.next);
-            graph.pieces.push(BoundaryPiece { from, site: id, next, edge: NONE, begins: true });
+            let whole = BoundaryPiece { from, site: id, next, edge: NONE, begins: true, left_out: false };
+            graph.pieces.push(whole);
         }
         let mut corners = HashMap::new();
         let mut corner = |id: u32| {

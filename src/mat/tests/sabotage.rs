@@ -6,7 +6,7 @@ use crate::mat::bvh::Bvh;
 use crate::mat::check::Doubt;
 use crate::mat::frame::Frame;
 use crate::mat::lamination::Lamination;
-use crate::mat::shot::{Shot, shoot_all};
+use crate::mat::shot::{Field, Shot};
 use crate::mat::sites::Sites;
 use crate::mat::stages::Stages;
 use crate::mat::touch::Contact;
@@ -63,10 +63,10 @@ fn built(pocket: &Pocket, meddle: impl FnOnce(&mut Sites, &mut [Shot])) -> Optio
     let frame = Frame::around(&pocket.bounds());
     let mut all = Sites::of(pocket, &frame, Vector::from_angle(2.4));
     let bvh = Bvh::sorted(&all.sites.iter().map(Site::bounds).collect::<Vec<_>>());
-    let mut shots = shoot_all(&all.sites, &bvh, all.blur);
+    let mut shots = Field::new(&all.sites, &bvh, all.blur).shoot_all(0.0);
     meddle(&mut all, &mut shots);
     let map = Lamination::of(&all, &shots, Doubt::of(frame.noise, all.blur))?;
-    Some(Mat::build(frame, all, bvh, map, Stages::default()))
+    Some(Mat::build(frame, all, bvh, (map, None), Stages::default()))
 }
 
 /// Breaks the axis of every pocket in as many ways as there are, and demands that each is seen.
