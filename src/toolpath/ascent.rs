@@ -8,12 +8,22 @@
 
 use super::crest::{Part, Reach};
 use super::roads::Roads;
+use crate::mat::NONE;
+use rayon::prelude::*;
 
 /// The ways up to the next level from the vertices of an axis.
 pub(super) struct Ascents<'a> {
     roads: &'a Roads<'a>,
     reach: &'a Reach<'a>,
     from: Vec<f64>,
+}
+
+/// From where an edge rises, how far, and the vertex at which the way goes on if it is not at the next level
+/// before.
+struct Way {
+    from: u32,
+    length: f64,
+    on: Option<u32>,
 }
 
 impl<'a> Ascents<'a> {
@@ -23,28 +33,27 @@ impl<'a> Ascents<'a> {
         let mut from_the_highest: Vec<u32> = (0..roads.vertices.len() as u32).collect();
         from_the_highest.sort_unstable_by(|a, b| radius(*b).total_cmp(&radius(*a)).then(a.cmp(b)));
         let mut ascents = Ascents { roads, reach, from: vec![f64::INFINITY; roads.vertices.len()] };
+        let edges = (0..roads.edge_count()).into_par_iter();
+        let ways: Vec<Way> = edges.map(|edge| ascents.along(edge)).collect();
         for v in from_the_highest {
-            let ways = roads.at(v).iter().map(|&edge| ascents.along(edge, v));
-            ascents.from[v as usize] = ways.fold(f64::INFINITY, f64::min);
+            let rising = roads.at(v).iter().map(|&edge| &ways[edge as usize]).filter(|way| way.from == v);
+            let lengths = rising.map(|way| way.length + way.on.map_or(0.0, |on| ascents.from[on as usize]));
+            ascents.from[v as usize] = lengths.fold(f64::INFINITY, f64::min);
         }
         ascents
     }
 
-    /// From a vertex by one of its edges.
-    fn along(&self, edge: u32, from: u32) -> f64 {
-        let ends = self.roads.ends(edge);
-        let end = usize::from(ends[0] != from);
-        let [here, there] = [end, 1 - end].map(|end| self.roads.radii(edge)[end]);
-        if there <= here {
-            return f64::INFINITY;
-        }
-        let top = self.reach.top(self.reach.first_level(here));
-        let whole = self.polygon(edge, [0.0, 1.0]);
-        if there < top {
-            return whole + self.from[ends[1 - end] as usize];
+    /// From the lower end of an edge, if there is one, to the next level or the other end.
+    fn along(&self, edge: u32) -> Way {
+        let (ends, radii) = (self.roads.ends(edge), self.roads.radii(edge));
+        let end = usize::from(radii[1] < radii[0]);
+        let from = if radii[0] == radii[1] { NONE } else { ends[end] };
+        let top = self.reach.top(self.reach.first_level(radii[end]));
+        if radii[1 - end] < top {
+            return Way { from, length: self.polygon(edge, [0.0, 1.0]), on: Some(ends[1 - end]) };
         }
         let t = self.roads.spot_of_radius(edge, top).t;
-        self.polygon(edge, if end == 0 { [0.0, t] } else { [t, 1.0] })
+        Way { from, length: self.polygon(edge, if end == 0 { [0.0, t] } else { [t, 1.0] }), on: None }
     }
 
     /// From any place of a part between two levels.

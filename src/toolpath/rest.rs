@@ -12,6 +12,7 @@
 use super::roads::Roads;
 use crate::geom::Point;
 use crate::mat::Sets;
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 
@@ -31,16 +32,23 @@ pub struct Rest {
 pub(super) fn rest(roads: &Roads, distance: f64, least: f64) -> Vec<Rest> {
     let n = roads.vertices.len();
     let is_low = |v: u32| roads.vertices[v as usize].1 < distance;
+    let edges = (0..roads.edge_count()).into_par_iter().map(|edge| (edge, roads.ends(edge)));
+    let crossed: Vec<(u32, Point)> = edges
+        .filter(|(_, [a, b])| is_low(*a) != is_low(*b))
+        .map(|(edge, [a, b])| {
+            let low = if is_low(a) { a } else { b };
+            (low, roads.place(roads.spot_of_radius(edge, distance)))
+        })
+        .collect();
     let (mut nearest, mut queue, mut parts) = (vec![None; n], VecDeque::new(), Sets::singles(n));
-    for edge in 0..roads.edge_count() {
-        let [a, b] = roads.ends(edge);
+    for [a, b] in (0..roads.edge_count()).map(|edge| roads.ends(edge)) {
         if is_low(a) && is_low(b) {
             parts.unite(a, b);
-        } else if is_low(a) || is_low(b) {
-            let low = if is_low(a) { a } else { b };
-            nearest[low as usize] = Some(roads.place(roads.spot_of_radius(edge, distance)));
-            queue.push_back(low);
         }
+    }
+    for (low, spot) in crossed {
+        nearest[low as usize] = Some(spot);
+        queue.push_back(low);
     }
     let mut highest: Vec<Option<Rest>> = vec![None; n];
     while let Some(v) = queue.pop_front() {
