@@ -115,6 +115,6 @@ pub use mat::{
 pub use offset::{Exterior, Level, LevelSets, MergeTree, Part};
 pub use tolerance::{Tolerance, Units};
 pub use toolpath::{
-    Direction, Entry, Job, Move, Order, Path, PocketPath, Point3, Rest, Start, Strategy, Totals,
+    Direction, Entry, Job, Move, Moves, Order, Path, PocketPath, Point3, Rest, Start, Strategy, Totals,
 };
 pub use verify::{Comparison, Disagreement, DisagreementKind, Fault, FaultKind, LevelReport, Party};

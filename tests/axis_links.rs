@@ -43,7 +43,7 @@ fn path(pocket: &Pocket, job: &Job) -> Path {
 
 /// Ends of the straight moves below the top.
 fn straight_cuts(path: &Path) -> Vec<[Point; 2]> {
-    let pairs = path.moves.windows(2).filter(|pair| matches!(pair[1], Move::Feed { .. }));
+    let pairs = path.moves.pairs().filter(|pair| matches!(pair[1], Move::Feed { .. }));
     let ends = pairs.map(|pair| [pair[0].to(), pair[1].to()]);
     ends.filter(|[a, b]| a.z.max(b.z) < 0.0).map(|ends| ends.map(|p| p.xy())).collect()
 }
@@ -53,7 +53,7 @@ fn straight_cuts(path: &Path) -> Vec<[Point; 2]> {
 fn keeps_its_distance(pocket: &Pocket, job: &Job, path: &Path) {
     let wall = Boundary::new(pocket.loops());
     let mut arcs = 0;
-    for pair in path.moves.windows(2).filter(|pair| pair[1].to().z < 0.0) {
+    for pair in path.moves.pairs().filter(|pair| pair[1].to().z < 0.0) {
         let [from, to] = [pair[0].to().xy(), pair[1].to().xy()];
         let cut = match pair[1] {
             Move::Rapid { .. } => continue,

@@ -26,8 +26,8 @@ fn job(tool: f64, share: f64, start: Start) -> Job {
 /// What is cut at the floor.
 fn cuts(path: &Path) -> Vec<Element> {
     let floor = path.moves.iter().map(|m| m.to().z).fold(f64::INFINITY, f64::min);
-    let at_floor = path.moves.windows(2).filter(|pair| pair.iter().all(|m| m.to().z == floor));
-    let element = |pair: &[Move]| {
+    let at_floor = path.moves.pairs().filter(|pair| pair.iter().all(|m| m.to().z == floor));
+    let element = |pair: [Move; 2]| {
         let mut e = Element::segment(pair[0].to().xy(), pair[1].to().xy());
         if let Move::Arc { center, ccw, .. } = pair[1] {
             let turn = (e.start - center).angle_to(e.end - center).abs();

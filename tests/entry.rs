@@ -28,7 +28,7 @@ struct Sloped {
 }
 
 fn sloped_arcs(path: &Path) -> Vec<Sloped> {
-    let sloped = |pair: &[Move]| {
+    let sloped = |pair: [Move; 2]| {
         let (from, to) = (pair[0].to(), pair[1].to());
         let Move::Arc { center, ccw, .. } = pair[1] else { return None };
         let turn = (from.xy() - center).angle_to(to.xy() - center).abs();
@@ -36,7 +36,7 @@ fn sloped_arcs(path: &Path) -> Vec<Sloped> {
         let ends = [from.xy(), to.xy()];
         (from.z > to.z).then_some(Sloped { ends, fall: from.z - to.z, center, ccw, length })
     };
-    path.moves.windows(2).filter_map(sloped).collect()
+    path.moves.pairs().filter_map(sloped).collect()
 }
 
 #[test]
@@ -69,16 +69,18 @@ fn a_helix_ends_on_its_pass_in_the_direction_of_the_pass() {
     let path = path(&rectangle(60.0, 40.0), &Job { start: Start::Outside, ..job() });
     let ends: Vec<usize> = (1..path.moves.len() - 1)
         .filter(|&i| {
-            let [a, b, c] = [i - 1, i, i + 1].map(|i| path.moves[i].to().z);
-            matches!(path.moves[i], Move::Arc { .. }) && a > b && b == c
+            let [a, b, c] = [i - 1, i, i + 1].map(|i| path.moves.get(i).unwrap().to().z);
+            matches!(path.moves.get(i).unwrap(), Move::Arc { .. }) && a > b && b == c
         })
         .collect();
     assert_eq!(ends.len(), 2);
     for i in ends {
-        let Move::Arc { to, center, ccw, .. } = path.moves[i] else { unreachable!("filtered above") };
+        let Move::Arc { to, center, ccw, .. } = path.moves.get(i).unwrap() else {
+            unreachable!("filtered above")
+        };
         let from_center = to.xy() - center;
         let ahead = if ccw { from_center.left() } else { from_center.right() };
-        let onward = path.moves[i + 1].to().xy() - to.xy();
+        let onward = path.moves.get(i + 1).unwrap().to().xy() - to.xy();
         assert!(ahead.cross(onward).abs() < 1e-9 * ahead.length() * onward.length());
         assert!(ahead.dot(onward) > 0.0);
     }

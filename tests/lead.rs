@@ -55,7 +55,7 @@ impl Arc {
 fn leads(mat: &Mat, path: &Path, wall: f64) -> (Vec<Arc>, Vec<Arc>) {
     let (mut onto, mut off) = (Vec::new(), Vec::new());
     let floor = path.moves.iter().map(|m| m.to().z).fold(f64::INFINITY, f64::min);
-    for (index, pair) in path.moves.windows(2).enumerate() {
+    for (index, pair) in path.moves.pairs().enumerate() {
         let Move::Arc { to, center, ccw, .. } = pair[1] else { continue };
         let (from, to) = (pair[0].to(), to);
         let arc = Arc { index: index + 1, from: from.xy(), to: to.xy(), center, ccw };
@@ -97,7 +97,7 @@ fn leads_touch_the_pass_and_keep_as_far_from_the_wall() {
         assert_eq!(onto.to, off.from);
         assert!(onto.ccw == off.ccw && onto.center.distance(off.center) < 1e-9);
         // The element after the one and that before the other touch it.
-        let next = path.moves[onto.index + 1];
+        let next = path.moves.get(onto.index + 1).unwrap();
         let ahead = match next {
             Move::Arc { center, ccw, .. } => Arc { center, ccw, ..*onto }.ahead(onto.to),
             _ => next.to().xy() - onto.to,

@@ -19,7 +19,7 @@ fn path(order: Order) -> Path {
 /// The heights of the cuts, each with the pocket, as they follow one another.
 fn sequence(path: &Path) -> Vec<(bool, i64)> {
     let mut found = Vec::new();
-    for pair in path.moves.windows(2) {
+    for pair in path.moves.pairs() {
         let (a, b) = (pair[0].to(), pair[1].to());
         let at = (b.x > 30.5, (1000.0 * b.z).round() as i64);
         if a.z == b.z && b.z < 0.0 && found.last() != Some(&at) {

@@ -21,7 +21,7 @@ fn path(mat: &Mat, job: &Job) -> Path {
 
 /// Length of the links that go straight across from one level to the next.
 fn straight_links(mat: &Mat, path: &Path) -> f64 {
-    let feeds = path.moves.windows(2).filter(|pair| matches!(pair[1], Move::Feed { .. }));
+    let feeds = path.moves.pairs().filter(|pair| matches!(pair[1], Move::Feed { .. }));
     let ends = feeds.map(|pair| [pair[0].to(), pair[1].to()]).filter(|[a, b]| a.z == b.z && a.z < 0.0);
     let across = ends.map(|ends| ends.map(|p| p.xy()));
     let across = across.filter(|[a, b]| (mat.distance(*a) - mat.distance(*b)).abs() > 1e-6);
@@ -124,14 +124,14 @@ fn what_pockets_amount_to_adds_up_to_the_path() {
 /// Length of what is cut at the floor at less than the feed rate.
 fn slow_length(path: &Path, job: &Job) -> f64 {
     let floor = job.top - job.depth;
-    let slow = |pair: &&[Move]| {
+    let slow = |pair: &[Move; 2]| {
         let rate = match pair[1] {
             Move::Rapid { .. } => return false,
             Move::Feed { rate, .. } | Move::Arc { rate, .. } => rate,
         };
         pair.iter().all(|m| m.to().z == floor) && rate < job.feed
     };
-    path.moves.windows(2).filter(slow).map(|pair| pair[0].to().distance(pair[1].to())).sum()
+    path.moves.pairs().filter(slow).map(|pair| pair[0].to().distance(pair[1].to())).sum()
 }
 
 #[test]

@@ -1,6 +1,12 @@
 //! The way that a pass takes: a chain of elements that may begin anywhere on a loop.
 
+use super::tally::Tally;
 use crate::geom::{ArcSpline, Element, Point};
+use std::cell::OnceCell;
+use std::sync::Arc;
+
+/// Elements from which on a course is worth to be known again at the next height.
+pub(super) const LONG: usize = 1 << 10;
 
 /// Turn between two elements, in radians, from which on their joint counts as a corner: joints of arc
 /// splines turn by round-off, corners that are seen on a part by degrees.
@@ -15,12 +21,13 @@ const SOME: usize = 64;
 /// Elements in order of travel; closed when the last ends where the first begins.
 #[derive(Clone, Debug)]
 pub(super) struct Course {
-    pub elements: Vec<Element>,
+    pub elements: Arc<Vec<Element>>,
     pub closed: bool,
     /// Where it begins; the only place of a course without elements.
     pub start: Point,
     /// No chord is longer, nor one over what is left out between elements.
     longest: f64,
+    tally: OnceCell<Option<Tally>>,
 }
 
 /// A place on a course, for beginning there.
@@ -36,18 +43,48 @@ impl Course {
     pub fn along(spline: &ArcSpline, backwards: bool) -> Option<Course> {
         let start = spline.vertices.first()?.point;
         let n = spline.len();
-        let mut elements: Vec<Element> = if backwards {
-            (0..n).rev().map(|i| spline.element(i).reversed()).collect()
+        // One more than there are, as the course may begin within one.
+        let mut elements = Vec::with_capacity(n + 1);
+        if backwards {
+            elements.extend((0..n).rev().map(|i| spline.element(i).reversed()));
         } else {
-            spline.elements().collect()
-        };
+            elements.extend(spline.elements());
+        }
         let is_useful = |e: &Element| e.is_finite() && (e.start != e.end);
         let longest = if elements.iter().all(is_useful) { longest_chord(&elements) } else { f64::INFINITY };
         if longest == f64::INFINITY {
             elements.retain(is_useful);
         }
         let start = elements.first().map_or(start, |e| e.start);
-        Some(Course { elements, closed: spline.closed, start, longest })
+        let elements = Arc::new(elements);
+        Some(Course { elements, closed: spline.closed, start, longest, tally: OnceCell::new() })
+    }
+
+    /// The same course along other elements.
+    fn with(&self, elements: Vec<Element>) -> Course {
+        let start = elements.first().map_or(self.start, |e| e.start);
+        let (elements, tally) = (Arc::new(elements), OnceCell::new());
+        Course { elements, start, tally, closed: self.closed, longest: self.longest }
+    }
+
+    /// What the moves along it amount to, if it is long and each of its elements one move. Copies that are made
+    /// later know it.
+    pub fn tally(&self) -> Option<Tally> {
+        let tally = || if self.elements.len() >= LONG { Tally::of(&self.elements) } else { None };
+        *self.tally.get_or_init(tally)
+    }
+
+    /// Whether another course along the same spline is this one.
+    pub fn is_same(&self, other: &Course) -> bool {
+        let ends = |c: &Course| (c.elements.len(), c.elements.first().copied(), c.elements.last().copied());
+        ends(self) == ends(other)
+    }
+
+    /// A closed course begun at another of its elements.
+    pub fn rotated(&self, first: usize) -> Course {
+        let mut elements = self.elements.to_vec();
+        elements.rotate_left(first);
+        self.with(elements)
     }
 
     /// Length along the course.
@@ -96,7 +133,7 @@ impl Course {
     /// The middle of the longest element: away from corners.
     pub fn calm_place(&self) -> Point {
         let mut longest = (0.0, self.start);
-        for e in &self.elements {
+        for e in self.elements.iter() {
             let length = e.length();
             if length > longest.0 {
                 longest = (length, e.midpoint());
@@ -108,34 +145,35 @@ impl Course {
     /// The same course begun at a place of it; an open one is turned round where that is its end.
     /// Parts shorter than `slack` are not split off.
     pub fn begun_at(&self, place: Place, slack: f64) -> Course {
+        self.clone().begin_at(place, slack)
+    }
+
+    /// The same, in the room of this one unless that is held elsewhere too.
+    pub fn begin_at(self, place: Place, slack: f64) -> Course {
         if !self.closed && place.element > 0 {
-            return self.clone().turned();
+            return self.turned();
         }
         if !self.closed || self.elements.is_empty() {
-            return self.clone();
+            return self;
         }
         let e = self.elements[place.element];
         let (before, after) = e.split(e.parameter(place.point));
         // A place next to a vertex is the vertex: no element of round-off length.
         let is_start = before.length() <= slack;
         let is_end = !is_start && after.length() <= slack;
-        let (gone, coming) = self.elements.split_at(place.element + usize::from(is_end));
-        let mut elements = Vec::with_capacity(self.elements.len() + 1);
-        elements.extend_from_slice(coming);
-        elements.extend_from_slice(gone);
+        let mut elements = self.elements;
+        let begun = Arc::make_mut(&mut elements);
+        begun.rotate_left(place.element + usize::from(is_end));
         if !(is_start || is_end) {
-            elements[0] = after;
-            elements.push(before);
+            begun[0] = after;
+            begun.push(before);
         }
-        Course { start: elements[0].start, elements, ..*self }
+        Course { start: begun[0].start, elements, tally: OnceCell::new(), ..self }
     }
 
     /// The same course from its end to its start.
-    pub fn turned(mut self) -> Course {
-        self.elements.reverse();
-        self.elements.iter_mut().for_each(|e| *e = e.reversed());
-        self.start = self.elements.first().map_or(self.start, |e| e.start);
-        self
+    pub fn turned(&self) -> Course {
+        self.with(self.elements.iter().rev().map(Element::reversed).collect())
     }
 
     /// The last stretch of a given length of a closed course, run round as often as it takes.

@@ -1,14 +1,11 @@
 //! The tool in the machine: appends moves, knows where it is, and adds up lengths and time.
 
-use super::{Job, Move, Point3};
+use super::course::Course;
+use super::{Job, Move, Moves, Point3};
 use crate::geom::{Element, Point};
 use crate::tolerance::Units;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
-
-/// Moves that are worth a thread.
-const LEAST: usize = 1 << 10;
 
 /// What a path amounts to. Lengths in job units.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -74,16 +71,14 @@ pub(super) fn rapid_minutes(length: f64, job: &Job) -> f64 {
 pub(super) struct Cutter<'a> {
     job: &'a Job,
     at: Option<Point3>,
-    pub moves: Vec<Move>,
+    pub moves: Moves,
     pub totals: Totals,
-    /// Lengths of moves that were made side by side.
-    lengths: Vec<f64>,
 }
 
 impl<'a> Cutter<'a> {
     /// A tool that is nobody knows where.
     pub fn new(job: &'a Job) -> Cutter<'a> {
-        Cutter { job, at: None, moves: Vec::new(), totals: Totals::default(), lengths: Vec::new() }
+        Cutter { job, at: None, moves: Moves::default(), totals: Totals::default() }
     }
 
     /// Where the tool is in the drawing, once it has moved.
@@ -146,22 +141,20 @@ impl<'a> Cutter<'a> {
         self.follow(e, z, self.job.feed);
     }
 
-    /// Along elements one after the other as if each were [cut](Cutter::cut). Of many, the moves are made side
-    /// by side; what they amount to is added up in their order, so that it is the same to the last bit.
-    pub fn cut_all(&mut self, elements: &[Element]) {
-        let Some(at) = self.at.filter(|at| elements.len() >= 2 * LEAST && are_moves(*at, elements)) else {
-            return elements.iter().for_each(|e| self.cut(e));
+    /// Along a course as if each of its elements were [cut](Cutter::cut). The moves along a long one are held as
+    /// its elements; their lengths are added up apart, and so differ by round-off.
+    pub fn cut_all(&mut self, course: &Course) {
+        let at = self.at.filter(|at| at.xy() == course.start);
+        let (Some(at), Some(tally)) = (at, course.tally()) else {
+            return course.elements.iter().for_each(|e| self.cut(e));
         };
-        let (z, rate) = (at.z, self.job.feed);
-        let before = |i: usize| i.checked_sub(1).map_or(at, |last| Point3::new(elements[last].end, z));
-        let motions = elements.par_iter().enumerate().with_min_len(LEAST);
-        self.lengths.clear();
-        let mut all = (std::mem::take(&mut self.moves), std::mem::take(&mut self.lengths));
-        let first = all.0.len();
-        all.par_extend(motions.map(|(i, e)| motion(Some(before(i)), e, z, rate)));
-        let (moves, lengths) = all;
-        moves[first..].iter().zip(&lengths).for_each(|(m, length)| self.count(m, *length));
-        (self.moves, self.lengths) = (moves, lengths);
+        let rate = self.job.feed;
+        self.totals.arcs += tally.arcs;
+        self.totals.lines += course.elements.len() - tally.arcs;
+        self.totals.cut_length += tally.length;
+        self.totals.minutes += tally.length / rate;
+        self.moves.push_along(course.elements.clone(), at.z, rate);
+        self.at = Some(Point3::new(course.end(), at.z));
     }
 
     /// The same at a share of the feed rate.
@@ -196,58 +189,34 @@ impl<'a> Cutter<'a> {
 
     /// Straight at a rate.
     pub fn line(&mut self, p: Point, z: f64, rate: f64) {
-        let (m, length) = straight(self.at, Point3::new(p, z), rate);
-        self.go(m, length);
+        let to = Point3::new(p, z);
+        self.go(Move::Feed { to, rate }, self.at.map_or(0.0, |at| at.distance(to)));
     }
 
     /// A feed move, unless it is a line to where the tool is.
     fn go(&mut self, m: Move, length: f64) {
-        if matches!(m, Move::Feed { .. }) && self.at == Some(m.to()) {
-            return;
-        }
-        self.count(&m, length);
-        self.moves.push(m);
-    }
-
-    /// Adds up a feed move, and is where it ends.
-    fn count(&mut self, m: &Move, length: f64) {
         match m {
             Move::Arc { .. } => self.totals.arcs += 1,
+            _ if self.at == Some(m.to()) => return,
             _ => self.totals.lines += 1,
         }
         self.totals.cut_length += length;
         self.totals.minutes += m.rate().map_or(0.0, |rate| length / rate);
+        self.moves.push(m);
         self.at = Some(m.to());
     }
 }
 
 /// The move along an element of half a circle at most, and its length.
 fn motion(at: Option<Point3>, e: &Element, z: f64, rate: f64) -> (Move, f64) {
-    let to = Point3::new(e.end, z);
-    let center = if is_flat(e) { None } else { e.center() };
-    let Some((center, radius)) = center else { return straight(at, to, rate) };
-    let length = (radius * e.sweep().abs()).hypot(at.map_or(0.0, |at| z - at.z));
-    (Move::Arc { to, center, ccw: e.bulge > 0.0, rate }, length)
-}
-
-fn straight(at: Option<Point3>, to: Point3, rate: f64) -> (Move, f64) {
-    (Move::Feed { to, rate }, at.map_or(0.0, |at| at.distance(to)))
-}
-
-/// Whether each of some elements is one move.
-fn are_moves(at: Point3, elements: &[Element]) -> bool {
-    let mut last = at.xy();
-    elements.iter().all(|e| e.bulge.abs() <= 1.0 && std::mem::replace(&mut last, e.end) != e.end)
-}
-
-/// Whether an arc is no different from its chord, its center beyond reach.
-fn is_flat(arc: &Element) -> bool {
-    /// Round-off of the four coordinates that chord and bulge come from, one rounding each.
-    const COORDINATE_ERROR: f64 = 2.0 * f64::EPSILON;
-    let sagitta = 0.5 * arc.chord().length() * arc.bulge.abs();
-    let magnitude =
-        [arc.start.x, arc.start.y, arc.end.x, arc.end.y].into_iter().fold(0.0, |m, c| c.abs().max(m));
-    sagitta <= COORDINATE_ERROR * magnitude
+    let m = Move::along(e, z, rate);
+    let length = match (m, e.center()) {
+        (Move::Arc { .. }, Some((_, radius))) => {
+            (radius * e.sweep().abs()).hypot(at.map_or(0.0, |at| z - at.z))
+        }
+        _ => at.map_or(0.0, |at| at.distance(m.to())),
+    };
+    (m, length)
 }
 
 /// In how many equal parts of at most a half circle an element goes.
@@ -274,10 +243,11 @@ mod tests {
         let most = Element::arc(point(1.0, 0.0), point(0.0, -1.0), (3.0 * PI / 8.0).tan());
         cutter.follow(&most, -2.0, 100.0);
         cutter.leave();
-        assert_eq!(cutter.moves[0].to(), Point3 { x: 1.0, y: 0.0, z: 5.0 });
-        assert_eq!(cutter.moves[1].to().z, 1.0);
+        let places: Vec<Point3> = cutter.moves.iter().map(|m| m.to()).collect();
+        assert_eq!(places[0], Point3 { x: 1.0, y: 0.0, z: 5.0 });
+        assert_eq!(places[1].z, 1.0);
         assert_eq!((cutter.totals.arcs, cutter.totals.lines, cutter.totals.retracts), (2, 1, 1));
-        assert_eq!(cutter.moves[3].to().z, -1.5);
+        assert_eq!(places[3].z, -1.5);
         assert!((cutter.totals.rapid_length - (4.0 + 7.0)).abs() < 1e-12);
         let arc = (1.5 * PI).hypot(1.0);
         assert!((cutter.totals.cut_length - (2.0 + arc)).abs() < 1e-3);
@@ -296,29 +266,34 @@ mod tests {
     }
 
     #[test]
-    fn many_moves_at_once_are_those_one_by_one() {
+    fn moves_along_a_long_course_are_those_one_by_one() {
         let job = Job::new(Units::Mm, 2.0, 1.0);
         let vertex = |i: u32| {
             let angle = 0.002 * f64::from(i);
             (50.0 * angle.cos(), 50.0 * angle.sin(), [0.0, 1e-18, 0.4][i as usize % 3])
         };
-        let course = crate::geom::ArcSpline::closed((0..3100).map(vertex));
-        let cut = |elements: &[Element], at_once: bool| {
+        let cut = |bulge: f64, at_once: bool| {
+            let mut spline = crate::geom::ArcSpline::closed((0..3100).map(vertex));
+            spline.vertices[7].bulge = bulge;
+            let course = Course::along(&spline, false).unwrap();
             let mut cutter = Cutter::new(&job);
-            cutter.over(point(50.0, 0.0), 0.0);
+            cutter.over(course.start, 0.0);
             cutter.plunge(-1.0);
             match at_once {
-                true => cutter.cut_all(elements),
-                false => elements.iter().for_each(|e| cutter.cut(e)),
+                true => cutter.cut_all(&course),
+                false => course.elements.iter().for_each(|e| cutter.cut(e)),
             }
-            (cutter.moves, cutter.totals)
+            assert_eq!(course.tally().is_some(), bulge <= 1.0);
+            (cutter.at, cutter.moves, cutter.totals)
         };
-        let mut elements: Vec<Element> = course.elements().collect();
-        assert!(are_moves(Point3::new(point(50.0, 0.0), -1.0), &elements));
-        assert_eq!(cut(&elements, true), cut(&elements, false));
-        elements[7].bulge = 3.0;
-        elements[9].end = elements[8].end;
-        assert_eq!(cut(&elements, true), cut(&elements, false));
+        for bulge in [0.0, 1.0, 3.0] {
+            let (one_by_one, at_once) = (cut(bulge, false), cut(bulge, true));
+            assert_eq!((one_by_one.0, &one_by_one.1), (at_once.0, &at_once.1));
+            let [a, b] = [one_by_one.2, at_once.2];
+            assert_eq!((a.arcs, a.lines, a.rapid_length), (b.arcs, b.lines, b.rapid_length));
+            assert!((a.cut_length - b.cut_length).abs() < 1e-10 * a.cut_length);
+            assert!((a.minutes - b.minutes).abs() < 1e-10 * a.minutes);
+        }
     }
 
     #[test]

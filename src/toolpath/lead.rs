@@ -195,11 +195,10 @@ struct Touching {
 
 /// The course begun at a corner of it, if there is one, and a place on each of its long smooth runs:
 /// nearest to `here`, and by `margin` away from corners where the run is that long.
-fn places(mut course: Course, here: Point, margin: f64) -> (Course, Vec<Place>) {
+fn places(course: Course, here: Point, margin: f64) -> (Course, Vec<Place>) {
     let n = course.elements.len();
     let corner = (0..n).find(|&i| turns(&course.elements[(i + n - 1) % n], &course.elements[i]));
-    course.elements.rotate_left(corner.unwrap_or(0));
-    course.start = course.elements[0].start;
+    let course = course.rotated(corner.unwrap_or(0));
     let margin = if corner.is_some() { margin } else { 0.0 };
     let runs: Vec<&[Element]> = course.elements.chunk_by(|a, b| !turns(a, b)).collect();
     let lengths: Vec<f64> = runs.iter().map(|run| run.iter().map(Element::length).sum()).collect();

@@ -11,7 +11,7 @@
 //! tangents from the end of the one to a place of the other somewhat farther ahead than aside. Its first
 //! arc stays nearer to its start than the passes are to each other, so it does not come beyond the second.
 
-use super::course::{Course, Place, turns};
+use super::course::{Course, LONG, Place, turns};
 use super::plan::{Ground, Planner};
 use crate::geom::{Element, Point, Vector};
 
@@ -19,11 +19,12 @@ use crate::geom::{Element, Point, Vector};
 /// would turn nearly by a right angle.
 const AHEAD: f64 = 1.5;
 
-/// Elements of a pass for which it is worth to know a link again.
-const LONG: usize = 1 << 10;
-
-/// Two arcs, and the place of the next pass that they lead to.
-type Bend = ([Element; 2], Place);
+/// Two arcs, and the next pass, begun where they lead to.
+#[derive(Clone)]
+pub(super) struct Bend {
+    arcs: [Element; 2],
+    pub begun: Course,
+}
 
 /// What there is from the end of a pass to another: the pass, and the elements that it begins and ends with.
 pub(super) type KnownBend = ((usize, [Element; 2]), Option<Bend>);
@@ -34,23 +35,38 @@ pub(super) struct Last {
     pub course: Course,
 }
 
+impl Last {
+    /// Pass and elements that tell its end from others.
+    fn end(&self) -> Option<(usize, [Element; 2])> {
+        Some((self.pass, [*self.course.elements.first()?, *self.course.elements.last()?]))
+    }
+}
+
 impl Planner<'_> {
     /// On from the end of the last pass, where that is a neighbor.
-    pub fn link(&mut self, ground: &mut Ground, pass: usize, course: &Course) -> Option<Course> {
-        let last = ground.last.as_ref()?.pass;
-        let doors = ground.nest.inner[pass].iter().chain(&ground.nest.outer[pass]);
-        doors.into_iter().find(|d| d.pass == last)?;
-        let planned = ground.begin[pass];
-        if planned.is_none()
-            && let Some((arcs, place)) = ground.bend(pass, course)
-        {
-            arcs.iter().for_each(|arc| self.cut_link(arc));
-            // Turned outward as far as that, the tool is as good as full from half its width on.
-            if ground.apart(pass, last) > self.job.radius() {
-                self.amounts.full_width_length += arcs.iter().map(Element::length).sum::<f64>();
-            }
-            return Some(course.begun_at(place, ground.slack));
+    pub fn link(&mut self, ground: &mut Ground, pass: usize, course: Course) -> Result<Course, Course> {
+        let Some(last) = ground.last.as_ref().map(|last| last.pass) else { return Err(course) };
+        let mut doors = ground.nest.inner[pass].iter().chain(&ground.nest.outer[pass]);
+        if doors.all(|d| d.pass != last) {
+            return Err(course);
         }
+        if ground.begin[pass].is_some() {
+            return self.straight_link(ground, (pass, last), &course).ok_or(course);
+        }
+        match ground.bend(pass, course) {
+            Ok(bend) => Ok(self.along_bend(ground, pass, bend)),
+            Err(course) => self.straight_link(ground, (pass, last), &course).ok_or(course),
+        }
+    }
+
+    /// Straight to a pass from the last one, where that is short and free.
+    fn straight_link(
+        &mut self,
+        ground: &Ground,
+        (pass, last): (usize, usize),
+        course: &Course,
+    ) -> Option<Course> {
+        let planned = ground.begin[pass];
         let here = self.cutter.at()?;
         [planned, Some(here)].into_iter().flatten().find_map(|place| {
             let begun = course.begun_at(course.nearest(place), ground.slack);
@@ -62,6 +78,16 @@ impl Planner<'_> {
                 begun
             })
         })
+    }
+
+    /// Along a link that bends, to the pass that begins there.
+    pub fn along_bend(&mut self, ground: &Ground, pass: usize, Bend { arcs, begun }: Bend) -> Course {
+        arcs.iter().for_each(|arc| self.cut_link(arc));
+        // Turned outward as far as that, the tool is as good as full from half its width on.
+        if ground.last.as_ref().is_some_and(|last| ground.apart(pass, last.pass) > self.job.radius()) {
+            self.amounts.full_width_length += arcs.iter().map(Element::length).sum::<f64>();
+        }
+        begun
     }
 
     /// Along a link, which is counted.
@@ -78,21 +104,39 @@ impl Planner<'_> {
 }
 
 impl Ground<'_> {
-    /// A link that bends outward from the last pass to the next one, if there is one: as it was found at a height
-    /// before, where the last pass was begun at the same place.
-    fn bend(&mut self, pass: usize, course: &Course) -> Option<Bend> {
-        let last = self.last.as_ref()?;
-        let ends = [*last.course.elements.first()?, *last.course.elements.last()?];
-        let known = self.bends.get(&pass).filter(|known| known.0 == (last.pass, ends));
-        let bend = known.map_or_else(|| self.new_bend(last, pass, course), |known| known.1);
-        if course.elements.len() >= LONG {
-            self.bends.insert(pass, ((last.pass, ends), bend));
+    /// The link that bends to a pass, if it is known from the height before, where the last pass was begun at the
+    /// same place.
+    pub fn bend_again(&self, pass: usize) -> Option<Bend> {
+        if self.begin[pass].is_some() { None } else { self.known_bend(pass)?.clone() }
+    }
+
+    fn known_bend(&self, pass: usize) -> Option<&Option<Bend>> {
+        let from = self.last.as_ref()?.end()?;
+        self.bends.get(&pass).filter(|known| known.0 == from).map(|known| &known.1)
+    }
+
+    /// A link that bends outward from the last pass to the next one, if there is one.
+    fn bend(&mut self, pass: usize, course: Course) -> Result<Bend, Course> {
+        if let Some(known) = self.known_bend(pass) {
+            return known.clone().ok_or(course);
+        }
+        let Some((last, end)) = self.last.as_ref().and_then(|last| Some((last, last.end()?))) else {
+            return Err(course);
+        };
+        let is_long = course.elements.len() >= LONG;
+        let bend = match self.new_bend(last, pass, &course) {
+            Some((arcs, place)) => Ok(Bend { arcs, begun: course.begin_at(place, self.slack) }),
+            None => Err(course),
+        };
+        if is_long {
+            bend.as_ref().ok().and_then(|bend| bend.begun.tally());
+            self.bends.insert(pass, (end, bend.as_ref().ok().cloned()));
         }
         bend
     }
 
     /// A link that bends outward from a closed pass to the next one, and where it meets that.
-    fn new_bend(&self, last: &Last, pass: usize, course: &Course) -> Option<Bend> {
+    fn new_bend(&self, last: &Last, pass: usize, course: &Course) -> Option<([Element; 2], Place)> {
         let is_outward = self.nest.outer[last.pass].iter().any(|door| door.pass == pass);
         if !(is_outward && last.course.closed && course.closed) {
             return None;

@@ -16,7 +16,8 @@
 //! a helix or a ramp into the stock (`entry`). What stands between levels more than the tool radius
 //! apart is cut along the axis (`crest`, `trim`), when the tool comes by for the last time (`run`).
 //! Finishing passes are met and left on arcs (`lead`). How wide is cut is known from the axis (`width`),
-//! and where it is more than the step the feed may be less (`pace`).
+//! and where it is more than the step the feed may be less (`pace`). What is cut alike at every height is held
+//! once (`stretch`).
 
 mod amounts;
 mod approach;
@@ -26,6 +27,7 @@ mod crest;
 mod cutter;
 mod detour;
 mod entry;
+mod flow;
 mod foot;
 mod indexed;
 mod job;
@@ -40,6 +42,8 @@ mod rest;
 mod roads;
 mod route;
 mod run;
+mod stretch;
+mod tally;
 #[cfg(test)]
 mod tests;
 mod time;
@@ -54,4 +58,5 @@ pub use job::{Direction, Entry, Job, Order, Start, Strategy};
 pub use moves::{Move, Point3};
 pub use path::{Path, PocketPath};
 pub use rest::Rest;
+pub use stretch::Moves;
 pub use warning::Warning;

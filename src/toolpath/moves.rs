@@ -1,6 +1,6 @@
 //! What the machine is told to do, one motion at a time.
 
-use crate::geom::{Point, point};
+use crate::geom::{Element, Point, point};
 use serde::{Deserialize, Serialize};
 
 /// A place of the tool's tip, in job units. Written as `[x, y, z]`.
@@ -64,6 +64,16 @@ impl Point3 {
 }
 
 impl Move {
+    /// Along an element of half a circle at most, at a height: straight where an arc is as good as its chord.
+    #[inline]
+    pub(super) fn along(e: &Element, z: f64, rate: f64) -> Move {
+        let to = Point3::new(e.end, z);
+        match e.center().filter(|_| !is_flat(e)) {
+            Some((center, _)) => Move::Arc { to, center, ccw: e.bulge > 0.0, rate },
+            None => Move::Feed { to, rate },
+        }
+    }
+
     /// Where the motion ends.
     pub const fn to(&self) -> Point3 {
         match self {
@@ -78,6 +88,16 @@ impl Move {
             Move::Feed { rate, .. } | Move::Arc { rate, .. } => Some(*rate),
         }
     }
+}
+
+/// Whether an arc is no different from its chord, its center beyond reach.
+fn is_flat(arc: &Element) -> bool {
+    /// Round-off of the four coordinates that chord and bulge come from, one rounding each.
+    const COORDINATE_ERROR: f64 = 2.0 * f64::EPSILON;
+    let sagitta = 0.5 * arc.chord().length() * arc.bulge.abs();
+    let magnitude =
+        [arc.start.x, arc.start.y, arc.end.x, arc.end.y].into_iter().fold(0.0, |m, c| c.abs().max(m));
+    sagitta <= COORDINATE_ERROR * magnitude
 }
 
 impl From<[f64; 3]> for Point3 {

@@ -31,7 +31,7 @@ impl Pace {
     /// Slow on stretches of a course, and `before` them by that length.
     pub fn new(course: &Course, stretches: &[Element], before: f64, slack: f64) -> Pace {
         let mut starts = vec![0.0];
-        for e in &course.elements {
+        for e in course.elements.iter() {
             starts.push(starts[starts.len() - 1] + e.length());
         }
         let elements = course.elements.iter().enumerate().map(|(i, e)| Indexed::new(*e, i));

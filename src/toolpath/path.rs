@@ -7,11 +7,11 @@ use super::plan::{MAX_MOVES, Planner, Prepared};
 use super::rest::{Rest, rest};
 use super::roads::Roads;
 use super::route::route;
-use super::time::minutes;
-use super::{Job, Move, Order, Warning};
+use super::time::Timer;
+use super::{Job, Moves, Order, Warning};
 use crate::error::Error;
 use crate::geom::{Element, Point};
-use crate::mat::{Disk, Mat};
+use crate::mat::Mat;
 use crate::offset::{Level, Part};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -27,7 +27,7 @@ const LEVELS_AT_ONCE: u64 = 256;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Path {
     /// The moves; none when the tool diameter is 0.
-    pub moves: Vec<Move>,
+    pub moves: Moves,
     /// The pockets, in the order given; they are cut in an order of short ways between them.
     pub pockets: Vec<PocketPath>,
     /// Lengths, counts and time.
@@ -128,24 +128,29 @@ impl Job {
         let mut path = Path::default();
         self.note_step(&mut path);
         let mut planner = Planner::new(self);
-        for (pocket, (mat, levels)) in mats.iter().zip(&levels).enumerate() {
-            let is_whole = mat.least_radius() == 0.0;
-            let (largest, neck) = (mat.largest_disk(), mat.narrowest_neck().filter(|_| is_whole));
-            let own = PocketPath {
-                largest_tool: 2.0 * (largest.radius - self.stock),
-                unreachable_area: is_whole.then(|| mat.unreachable_area(self.wall_distance())),
-                narrowest_neck: neck.map(|d| 2.0 * d.radius),
+        let unreachable = || -> Vec<Option<f64>> {
+            let area = |mat: &Mat| is_whole(mat).then(|| mat.unreachable_area(self.wall_distance()));
+            mats.par_iter().map(area).collect()
+        };
+        let cut = || {
+            let of_pocket = |(mat, levels): (&Mat, &Vec<Level>)| PocketPath {
+                largest_tool: 2.0 * (mat.largest_disk().radius - self.stock),
+                narrowest_neck: mat.narrowest_neck().filter(|_| is_whole(mat)).map(|d| 2.0 * d.radius),
                 machined: !levels.is_empty(),
                 ..PocketPath::default()
             };
-            self.note_room(&mut path, pocket, &own, largest, neck);
-            path.pockets.push(own);
-        }
-        if self.tool > 0.0 {
-            self.cut(&mut planner, &mut path.pockets, mats, &levels)?;
-        }
-        for (own, levels) in path.pockets.iter_mut().zip(levels) {
-            own.levels = levels;
+            let mut pockets: Vec<PocketPath> = mats.iter().zip(&levels).map(of_pocket).collect();
+            if self.tool > 0.0 {
+                self.cut(&mut planner, &mut pockets, mats, &levels)?;
+            }
+            Ok(pockets)
+        };
+        let (areas, pockets) = rayon::join(unreachable, cut);
+        path.pockets = pockets?;
+        for (i, (area, levels)) in areas.into_iter().zip(levels).enumerate() {
+            path.pockets[i].unreachable_area = area;
+            path.pockets[i].levels = levels;
+            self.note_room(&mut path, i, &mats[i]);
         }
         self.conclude(path, planner)
     }
@@ -169,11 +174,16 @@ impl Job {
         let clear = |mat| move |link: &Element, radius: f64| Mat::is_clear(mat, link, radius);
         let is_clear: Vec<_> = mats.iter().map(clear).collect();
         let ready = |planner: &Planner, own: &mut PocketPath, i: usize| {
-            let roads = Roads::new(&mats[i]);
-            own.most_retracts = self.most_retracts(&mats[i], &levels[i]);
-            if own.unreachable_area.is_some() {
-                own.unreachable = rest(&roads, self.wall_distance(), self.overlap());
-            }
+            let most_retracts = || self.most_retracts(&mats[i], &levels[i]);
+            let roads = || {
+                let roads = Roads::new(&mats[i]);
+                if is_whole(&mats[i]) {
+                    own.unreachable = rest(&roads, self.wall_distance(), self.overlap());
+                }
+                roads
+            };
+            let (most_retracts, roads) = rayon::join(most_retracts, roads);
+            own.most_retracts = most_retracts;
             planner.prepare(&levels[i], &is_clear[i], Some(roads))
         };
         let heights = self.heights().len();
@@ -210,12 +220,9 @@ impl Job {
 
     /// How long it takes, each pocket and all.
     fn estimate(&self, path: &mut Path) {
+        let timer = Timer::new(&path.moves, self);
         for own in &mut path.pockets {
-            let of_moves = |range: &Range<usize>| {
-                let before = range.start.checked_sub(1).map(|i| path.moves[i].to());
-                minutes(before, &path.moves[range.clone()], self)
-            };
-            own.totals.minutes = own.moves.iter().map(of_moves).sum();
+            own.totals.minutes = own.moves.iter().map(|range| timer.minutes(range.clone())).sum();
         }
         path.totals.minutes = path.pockets.iter().map(|own| own.totals.minutes).sum();
     }
@@ -312,11 +319,12 @@ impl Job {
         }
     }
 
-    fn note_room(&self, path: &mut Path, pocket: usize, own: &PocketPath, largest: Disk, neck: Option<Disk>) {
+    fn note_room(&self, path: &mut Path, pocket: usize, mat: &Mat) {
+        let own = &path.pockets[pocket];
         if !own.machined {
-            let warning = Warning::ToolTooLarge { pocket, at: largest.center, largest: own.largest_tool };
-            path.warnings.push(warning);
-        } else if let Some(neck) = neck
+            let (at, largest) = (mat.largest_disk().center, own.largest_tool);
+            path.warnings.push(Warning::ToolTooLarge { pocket, at, largest });
+        } else if let (Some(neck), Some(area)) = (mat.narrowest_neck(), own.unreachable_area)
             && neck.radius < self.wall_distance()
             && self.tool > 0.0
         {
@@ -324,8 +332,13 @@ impl Job {
                 pocket,
                 at: neck.center,
                 width: 2.0 * (neck.radius - self.stock),
-                area: own.unreachable_area.unwrap_or_default(),
+                area,
             });
         }
     }
+}
+
+/// Whether an axis tells what is out of reach.
+fn is_whole(mat: &Mat) -> bool {
+    mat.least_radius() == 0.0
 }

@@ -8,7 +8,7 @@
 //! **Does not** shorten the way between pockets or between branches of a pocket.
 
 use super::amounts::Amounts;
-use super::course::Course;
+use super::course::{Course, LONG};
 use super::crest::{Crest, Reach};
 use super::cutter::Cutter;
 use super::detour::Detours;
@@ -22,12 +22,16 @@ use super::{Direction, Job, Start, Warning};
 use crate::error::Error;
 use crate::geom::{ArcSpline, Bounds, Element, Point};
 use crate::offset::Level;
+use rayon::prelude::*;
 use rstar::RTree;
 use std::collections::HashMap;
 use std::ops::Range;
 
 /// Largest number of moves of a path.
 pub(super) const MAX_MOVES: u64 = 20_000_000;
+
+/// For how many passes at once courses are laid.
+const AHEAD: usize = 16;
 
 /// Round-off of a place of a level set, relative to the largest coordinate: the levels come from
 /// axis vertices, which are solved to about this accuracy.
@@ -63,8 +67,11 @@ pub(super) struct Ground<'a> {
     /// Passes cut at the height at hand.
     pub done: Vec<bool>,
     pub last: Option<Last>,
-    /// How long passes were come to at the height before.
+    /// How long passes were come to at the height before, and their courses there.
     pub bends: HashMap<usize, KnownBend>,
+    courses: HashMap<usize, Course>,
+    /// Courses that were laid before their turn came.
+    laid: HashMap<usize, Course>,
     /// What of each pass has no neighbor inside; `None` where that is all of it. Empty if not asked for.
     pub fresh: Vec<Option<Vec<Element>>>,
     /// Where each pass should begin, if that is known before.
@@ -140,6 +147,8 @@ impl<'a> Planner<'a> {
             done,
             last: None,
             bends: HashMap::new(),
+            courses: HashMap::new(),
+            laid: HashMap::new(),
             fresh: Vec::new(),
             begin,
         };
@@ -236,11 +245,26 @@ impl<'a> Planner<'a> {
     }
 
     fn passes(&mut self, ground: &mut Ground, order: &[usize], height: Height) -> Result<(), Error> {
-        self.cutter.moves.reserve(order.iter().map(|&pass| ground.spline(pass).len()).sum());
         for (i, &pass) in order.iter().enumerate() {
+            if i % AHEAD == 0 {
+                self.lay(ground, &order[i..order.len().min(i + AHEAD)]);
+            }
             self.pass(ground, pass, &order[i + 1..], height)?;
         }
         Ok(())
+    }
+
+    /// Lays the courses of some long passes side by side, unless they are known from the height before.
+    fn lay(&self, ground: &mut Ground, order: &[usize]) {
+        let is_new = |pass: &usize| ground.spline(*pass).len() >= LONG && !ground.courses.contains_key(pass);
+        let new: Vec<(usize, &ArcSpline, bool)> = order
+            .iter()
+            .filter(|pass| is_new(pass))
+            .map(|&pass| (pass, ground.spline(pass), self.is_backwards(ground, pass)))
+            .collect();
+        let course = |(pass, spline, is_backwards)| Some((pass, Course::along(spline, is_backwards)?));
+        let laid: Vec<(usize, Course)> = new.into_par_iter().filter_map(course).collect();
+        ground.laid.extend(laid);
     }
 
     fn pass(
@@ -250,14 +274,21 @@ impl<'a> Planner<'a> {
         rest: &[usize],
         height: Height,
     ) -> Result<(), Error> {
-        let Some(course) = Course::along(ground.spline(pass), self.is_backwards(ground, pass)) else {
-            return Ok(());
+        let course = if let Some(bend) = ground.bend_again(pass) {
+            self.afford(bend.begun.elements.len() as u64)?;
+            self.along_bend(ground, pass, bend)
+        } else {
+            let is_backwards = self.is_backwards(ground, pass);
+            let laid = ground.laid.remove(&pass);
+            let along = || Course::along(ground.spline(pass), is_backwards);
+            let Some(course) = laid.or_else(along) else { return Ok(()) };
+            self.afford(course.elements.len() as u64)?;
+            match self.link(ground, pass, course) {
+                Ok(linked) => linked,
+                Err(course) => self.approach(ground, (pass, rest), course, height)?,
+            }
         };
-        self.afford(course.elements.len() as u64)?;
-        let course = match self.link(ground, pass, &course) {
-            Some(linked) => linked,
-            None => self.approach(ground, (pass, rest), course, height)?,
-        };
+        let course = ground.as_before(pass, course);
         self.run(ground, pass, &course)?;
         if ground.nest.passes[pass].level == 0 && height.z == self.job.floor() {
             self.spring(&course)?;
@@ -269,11 +300,11 @@ impl<'a> Planner<'a> {
 
     /// Once more along a wall, as often as asked: round, or back and forth.
     pub fn spring(&mut self, course: &Course) -> Result<(), Error> {
-        let back = if course.closed { course.clone() } else { course.clone().turned() };
+        let back = if course.closed { course.clone() } else { course.turned() };
         for i in 0..self.job.spring {
             self.afford(course.elements.len() as u64)?;
             let way = if i % 2 == 0 { &back } else { course };
-            self.cutter.cut_all(&way.elements);
+            self.cutter.cut_all(way);
         }
         Ok(())
     }
@@ -298,6 +329,21 @@ impl<'a> Planner<'a> {
 impl Ground<'_> {
     pub fn spline(&self, pass: usize) -> &ArcSpline {
         self.nest.spline(self.levels, pass)
+    }
+
+    /// The course of a pass as it is known from the height before, if it is the same.
+    fn as_before(&mut self, pass: usize, course: Course) -> Course {
+        if course.elements.len() < LONG {
+            return course;
+        }
+        match self.courses.get(&pass) {
+            Some(known) if known.is_same(&course) => known.clone(),
+            _ => {
+                course.tally();
+                self.courses.insert(pass, course.clone());
+                course
+            }
+        }
     }
 
     /// Each crest is cut with the last of the passes on its sides. Answers which pass comes when.

@@ -28,7 +28,7 @@ impl Planner<'_> {
         let mut stops = ground.stops(pass, course).into_iter().peekable();
         let pace = ground.pace(self.job, pass, course);
         if pace.is_even() && stops.peek().is_none() {
-            self.cutter.cut_all(&course.elements);
+            self.cutter.cut_all(course);
             return Ok(());
         }
         let mut start = 0.0;

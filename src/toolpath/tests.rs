@@ -66,12 +66,7 @@ fn plan(level: fn(f64) -> Level, depth: fn(Point) -> f64, job: &Job) -> Planned 
     let mut planner = Planner::new(job);
     let passes = cut(&mut planner, &levels(level, job), &clear(depth)).unwrap();
     let warnings = planner.finish();
-    Planned {
-        moves: std::mem::take(&mut planner.cutter.moves),
-        totals: planner.cutter.totals,
-        warnings,
-        passes,
-    }
+    Planned { moves: planner.cutter.moves.to_vec(), totals: planner.cutter.totals, warnings, passes }
 }
 
 /// Each cut as an element of the plane with the heights at its ends.

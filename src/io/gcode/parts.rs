@@ -10,7 +10,7 @@ use super::program::{Part, Stats};
 use super::setup::Setup;
 use super::write::Writer;
 use crate::error::Error;
-use crate::toolpath::Move;
+use crate::toolpath::{Move, Moves};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -22,7 +22,7 @@ const PER_THREAD: usize = 2;
 
 /// Writes a program in parts of so many moves at least, and hands these over in order.
 pub(super) fn in_parts(
-    moves: &[Move],
+    moves: &Moves,
     setup: &Setup,
     least: usize,
     mut put: impl FnMut(&[u8]) -> Result<(), Error> + Send,
@@ -43,7 +43,7 @@ pub(super) fn in_parts(
 }
 
 /// Writes some parts side by side.
-fn make(parts: &mut Vec<Part>, moves: &[Move], setup: &Setup, ranges: &[Range<usize>]) -> Result<(), Error> {
+fn make(parts: &mut Vec<Part>, moves: &Moves, setup: &Setup, ranges: &[Range<usize>]) -> Result<(), Error> {
     parts.resize_with(ranges.len(), Part::default);
     let make = |(part, range): (&mut Part, &Range<usize>)| fill(part, moves, setup, range.clone());
     let results: Vec<_> = parts.par_iter_mut().zip(ranges).map(make).collect();
@@ -51,7 +51,7 @@ fn make(parts: &mut Vec<Part>, moves: &[Move], setup: &Setup, ranges: &[Range<us
 }
 
 /// Writes one part; the first has the header, the last the footer.
-fn fill(part: &mut Part, moves: &[Move], setup: &Setup, range: Range<usize>) -> Result<(), Error> {
+fn fill(part: &mut Part, moves: &Moves, setup: &Setup, range: Range<usize>) -> Result<(), Error> {
     part.clear();
     let out = std::mem::take(part);
     let mut writer = match range.start {
@@ -61,7 +61,7 @@ fn fill(part: &mut Part, moves: &[Move], setup: &Setup, range: Range<usize>) -> 
     if range.start == 0 {
         writer.header()?;
     }
-    writer.moves(&moves[range.clone()])?;
+    writer.moves(moves.range(range.clone()))?;
     if range.end == moves.len() {
         writer.footer()?;
     }
@@ -71,7 +71,7 @@ fn fill(part: &mut Part, moves: &[Move], setup: &Setup, range: Range<usize>) -> 
 }
 
 /// The moves of each part.
-fn ranges(moves: &[Move], setup: &Setup, least: usize) -> Vec<Range<usize>> {
+fn ranges(moves: &Moves, setup: &Setup, least: usize) -> Vec<Range<usize>> {
     let mut begins = vec![0];
     let mut from = least;
     while let Some(begin) = resumable(moves, setup, from) {
@@ -83,11 +83,13 @@ fn ranges(moves: &[Move], setup: &Setup, least: usize) -> Vec<Range<usize>> {
 }
 
 /// The first move from some on before which one cuts for sure, so that the state of the controller is known.
-fn resumable(moves: &[Move], setup: &Setup, from: usize) -> Option<usize> {
+fn resumable(moves: &Moves, setup: &Setup, from: usize) -> Option<usize> {
     let grid = Grid::new(setup.decimals);
-    let place = |i: usize| grid.round_point(moves[i].to().xy()).ok();
-    let cuts = |i: usize| moves[i].rate().is_some() && place(i).is_some() && place(i) != place(i - 1);
-    (from.max(2)..moves.len()).find(|&k| cuts(k - 1))
+    let place = |m: Move| grid.round_point(m.to().xy()).ok();
+    let cuts = |last: Move, m: Move| m.rate().is_some() && place(m).is_some() && place(m) != place(last);
+    let pairs = moves.range(from.max(2) - 2..moves.len()).zip(moves.range(from.max(2) - 1..moves.len()));
+    let begin = from.max(2) + pairs.take_while(|&(last, m)| !cuts(last, m)).count();
+    (begin < moves.len()).then_some(begin)
 }
 
 #[cfg(test)]
@@ -126,7 +128,7 @@ mod tests {
             count += 1;
             Ok(())
         };
-        let stats = in_parts(&moves(), setup, least, put).unwrap();
+        let stats = in_parts(&moves().into(), setup, least, put).unwrap();
         (text, stats, count)
     }
 
@@ -147,13 +149,13 @@ mod tests {
     #[test]
     fn who_takes_no_more_ends_it() {
         let full = || Err(Error::Internal { what: "full".into(), at: point(0.0, 0.0) });
-        assert!(in_parts(&moves(), &Setup::new(crate::Units::Mm), 10, |_| full()).is_err());
+        assert!(in_parts(&moves().into(), &Setup::new(crate::Units::Mm), 10, |_| full()).is_err());
     }
 
     #[test]
     fn a_part_with_a_fault_is_an_error() {
         let mut moves = moves();
         moves.push(Move::Feed { to: Point3 { x: f64::NAN, y: 0.0, z: 0.0 }, rate: 1.0 });
-        assert!(in_parts(&moves, &Setup::new(crate::Units::Mm), 100, |_| Ok(())).is_err());
+        assert!(in_parts(&moves.into(), &Setup::new(crate::Units::Mm), 100, |_| Ok(())).is_err());
     }
 }

@@ -10,7 +10,7 @@ use super::setup::{ArcWords, Coolant, Setup};
 use crate::error::Error;
 use crate::geom::{Element, Point};
 use crate::tolerance::Units;
-use crate::toolpath::{Move, Point3};
+use crate::toolpath::{Move, Moves, Point3};
 use std::f64::consts::PI;
 
 /// Line numbers go up by this and begin again after `LAST_NUMBER`.
@@ -27,7 +27,7 @@ const USUAL_LINE: usize = 24;
 /// # Errors
 /// When a setting or a coordinate is out of its range, when a feed comes before the first rapid to
 /// a place in the plane, or when the program would be too long.
-pub fn write(moves: &[Move], setup: &Setup) -> Result<Written, Error> {
+pub fn write(moves: &Moves, setup: &Setup) -> Result<Written, Error> {
     let mut text = Vec::with_capacity(moves.len() * USUAL_LINE);
     let stats = write_to(moves, setup, |part| {
         text.extend_from_slice(part);
@@ -42,7 +42,7 @@ pub fn write(moves: &[Move], setup: &Setup) -> Result<Written, Error> {
 /// # Errors
 /// As for [`write()`], and those of `put`.
 pub fn write_to(
-    moves: &[Move],
+    moves: &Moves,
     setup: &Setup,
     put: impl FnMut(&[u8]) -> Result<(), Error> + Send,
 ) -> Result<Stats, Error> {
@@ -74,9 +74,9 @@ impl<'a> Writer<'a> {
     }
 
     /// The writer of the moves from one on, before which a move cuts.
-    pub fn resumed(setup: &'a Setup, out: Part, moves: &[Move], begin: usize) -> Result<Writer<'a>, Error> {
+    pub fn resumed(setup: &'a Setup, out: Part, moves: &Moves, begin: usize) -> Result<Writer<'a>, Error> {
         let mut writer = Writer::new(setup, out);
-        let last = &moves[begin - 1];
+        let Some(last) = begin.checked_sub(1).and_then(|last| moves.get(last)) else { return Ok(writer) };
         let at = last.to();
         writer.exact = Some(at);
         writer.xy = Some(writer.grid.round_point(at.xy())?);
@@ -85,16 +85,16 @@ impl<'a> Writer<'a> {
         Ok(writer)
     }
 
-    pub fn moves(&mut self, moves: &[Move]) -> Result<(), Error> {
-        for m in moves {
-            match *m {
+    pub fn moves(&mut self, mut moves: impl Iterator<Item = Move>) -> Result<(), Error> {
+        moves.try_for_each(|m| {
+            match m {
                 Move::Rapid { to } => self.rapid(to)?,
                 Move::Feed { to, rate } => self.feed(to, rate)?,
                 Move::Arc { to, center, ccw, rate } => self.arc(to, center, ccw, rate)?,
             }
             self.exact = Some(m.to());
-        }
-        Ok(())
+            Ok(())
+        })
     }
 
     pub fn header(&mut self) -> Result<(), Error> {

@@ -10,7 +10,7 @@ use crate::geom::{ArcSpline, Bounds, Element, Point};
 use crate::mat::AxisEdge;
 use crate::offset::Level;
 use crate::tolerance::Units;
-use crate::toolpath::Move;
+use crate::toolpath::{Move, Moves};
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
 use std::fmt::Write;
@@ -27,7 +27,7 @@ pub struct Picture<'a> {
     free: Vec<Vec<Point>>,
     levels: Vec<&'a Level>,
     axes: Vec<&'a AxisEdge>,
-    moves: Vec<&'a [Move]>,
+    moves: Vec<&'a Moves>,
     marks: Vec<(Point, String)>,
     numbered: Vec<(Point, usize, String)>,
     captions: Vec<(Point, f64, String)>,
@@ -82,7 +82,7 @@ impl<'a> Picture<'a> {
     }
 
     /// A tool path. What is cut again at another height is drawn once.
-    pub fn path(mut self, moves: &'a [Move]) -> Self {
+    pub fn path(mut self, moves: &'a Moves) -> Self {
         self.moves.push(moves);
         self
     }
@@ -127,7 +127,7 @@ impl<'a> Picture<'a> {
             loops.chain(self.curves.iter().copied()).chain(self.unused.iter().copied()).chain(levels);
         let shapes = splines.map(ArcSpline::bounds).fold(Bounds::EMPTY, Bounds::union);
         let axes = self.axes.iter().flat_map(|e| e.points).filter(|p| p.is_finite());
-        let cuts = self.moves.iter().flat_map(|m| m.iter()).filter(|m| !matches!(m, Move::Rapid { .. }));
+        let cuts = self.moves.iter().flat_map(|m| m.iter()).filter(|m| m.rate().is_some());
         let ends = cuts.map(|m| m.to().xy()).filter(|p| p.is_finite());
         let marks = self.marks.iter().map(|m| m.0).chain(self.numbered.iter().map(|m| m.0));
         let places = axes.chain(ends).chain(marks).chain(self.free.iter().flatten().copied());
@@ -184,8 +184,8 @@ impl<'a> Picture<'a> {
     fn draw_moves(&self, frame: &Frame, body: &mut String, legend: &mut Legend) {
         let mut strokes = Strokes::default();
         for moves in &self.moves {
-            for pair in moves.windows(2) {
-                strokes.add(frame, &pair[0], &pair[1]);
+            for [from, to] in moves.pairs() {
+                strokes.add(frame, &from, &to);
             }
         }
         layer(body, legend, style::RAPID, &strokes.rapids);

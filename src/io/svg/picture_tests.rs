@@ -23,7 +23,7 @@ fn level(distance: f64) -> Level {
     Level { distance, loops: vec![outer, inner], ridges: vec![] }
 }
 
-fn moves() -> Vec<Move> {
+fn moves() -> Moves {
     let to = |x, y, z| Point3 { x, y, z };
     vec![
         Move::Rapid { to: to(3.0, 3.0, 5.0) },
@@ -35,6 +35,7 @@ fn moves() -> Vec<Move> {
         Move::Feed { to: to(3.0, 3.0, -2.0), rate: 1.0 },
         Move::Feed { to: to(40.0, 3.0, -2.0), rate: 1.0 },
     ]
+    .into()
 }
 
 #[test]

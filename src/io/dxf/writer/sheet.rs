@@ -10,7 +10,7 @@ use crate::geom::Bounds;
 use crate::mat::AxisEdge;
 use crate::offset::Level;
 use crate::tolerance::Units;
-use crate::toolpath::Move;
+use crate::toolpath::Moves;
 use std::io::{self, Write};
 
 /// A drawing to write. Everything is optional: boundaries (layer `BOUNDARY`), axes (`MEDIAL_AXIS`),
@@ -34,7 +34,7 @@ pub struct Sheet<'a> {
     pockets: Vec<&'a Pocket>,
     axes: Vec<&'a AxisEdge>,
     levels: Vec<&'a Level>,
-    paths: Vec<(&'a [Move], f64)>,
+    paths: Vec<(&'a Moves, f64)>,
 }
 
 impl<'a> Sheet<'a> {
@@ -62,7 +62,7 @@ impl<'a> Sheet<'a> {
     }
 
     /// A tool path. Helices become chords that lie within `tolerance`, a length, of them.
-    pub fn path(mut self, moves: &'a [Move], tolerance: f64) -> Self {
+    pub fn path(mut self, moves: &'a Moves, tolerance: f64) -> Self {
         self.paths.push((moves, tolerance));
         self
     }
@@ -113,6 +113,7 @@ impl<'a> Sheet<'a> {
 mod tests {
     use super::*;
     use crate::geom::{ArcSpline, point};
+    use crate::toolpath::Move;
     use crate::toolpath::Point3;
 
     fn tags(sheet: &Sheet) -> Vec<String> {
@@ -132,7 +133,7 @@ mod tests {
     fn the_head_tells_unit_and_extents() {
         let hole = Pocket::from_checked(ArcSpline::circle(point(3.0, 4.0), 2.0), vec![]);
         let to = |z| Point3 { x: 3.0, y: 4.0, z };
-        let moves = [Move::Rapid { to: to(5.0) }, Move::Feed { to: to(-1.0), rate: 1.0 }];
+        let moves = [Move::Rapid { to: to(5.0) }, Move::Feed { to: to(-1.0), rate: 1.0 }].into();
         let sheet = Sheet::new(Units::Inch).pockets([&hole]).path(&moves, 0.01);
         let tags = tags(&sheet);
         assert_eq!(after(&tags, "9 $INSUNITS")[0], "70 1");
@@ -144,7 +145,7 @@ mod tests {
     #[test]
     fn the_seed_is_above_every_handle_and_no_handle_is_used_twice() {
         let places = [[0.0, 0.0, 5.0], [1.0, 0.0, 5.0], [1.0, 0.0, 1.0], [2.0, 0.0, 1.0]].map(Point3::from);
-        let moves: Vec<Move> = places.into_iter().map(|to| Move::Rapid { to }).collect();
+        let moves: Moves = places.into_iter().map(|to| Move::Rapid { to }).collect();
         let hole = Pocket::from_checked(ArcSpline::circle(point(3.0, 4.0), 2.0), vec![]);
         let tags = tags(&Sheet::new(Units::Mm).pockets([&hole]).path(&moves, 0.01));
         let hex = |t: &String| u64::from_str_radix(t.split(' ').nth(1).unwrap(), 16).unwrap();

@@ -3,7 +3,7 @@
 use super::entity::{Entity, Shape};
 use super::layer::Layer;
 use crate::geom::{ArcSpline, Point, Vertex};
-use crate::toolpath::{Move, Point3};
+use crate::toolpath::{Move, Moves, Point3};
 use std::borrow::Cow;
 use std::f64::consts::PI;
 
@@ -12,20 +12,22 @@ const MAX_CHORDS: f64 = 4096.0;
 
 /// The path as entities: cuts at one height as polylines with bulges at that height, entries and
 /// rapids as ways in space. Helices become chords within `tolerance`.
-pub(super) fn strokes<'a>(moves: &'a [Move], tolerance: f64) -> impl Iterator<Item = Entity<'a>> {
+pub(super) fn strokes(moves: &Moves, tolerance: f64) -> impl Iterator<Item = Entity<'_>> {
+    let mut rest = moves.iter().peekable();
     // Nobody knows from where the first move comes.
-    let mut at = moves.first().map(Move::to);
-    let mut rest = moves.get(1..).unwrap_or_default();
+    let mut at = rest.next().map(|m| m.to());
     std::iter::from_fn(move || {
-        let (from, layer) = (at?, layer(at?, rest.first()?));
-        let mut place = from;
-        let same = |m: &&Move| self::layer(std::mem::replace(&mut place, m.to()), m) == layer;
-        let (run, others) = rest.split_at(rest.iter().take_while(same).count());
-        (at, rest) = (run.last().map(Move::to), others);
+        let from = at?;
+        let layer = layer(from, rest.peek()?);
+        let mut run = Vec::new();
+        while let Some(m) = rest.next_if(|m| self::layer(at.unwrap_or(from), m) == layer) {
+            at = Some(m.to());
+            run.push(m);
+        }
         let shape = if layer == Layer::Toolpath {
-            Shape::Spline(Cow::Owned(flat(from, run)), from.z)
+            Shape::Spline(Cow::Owned(flat(from, &run)), from.z)
         } else {
-            Shape::Way(way(from, run, tolerance))
+            Shape::Way(way(from, &run, tolerance))
         };
         Some(Entity { layer, shape })
     })
@@ -112,7 +114,7 @@ mod tests {
 
     #[test]
     fn a_path_is_rapids_entries_and_cuts_at_their_height() {
-        let moves = [
+        let moves = Moves::from([
             rapid(1.0, 0.0, 5.0),
             rapid(1.0, 0.0, 1.0),
             arc(-1.0, 0.0, 0.0, point(0.0, 0.0)),
@@ -120,7 +122,7 @@ mod tests {
             arc(-1.0, 0.0, -1.0, point(0.0, 0.0)),
             feed(-4.0, 0.0, -1.0),
             rapid(-4.0, 0.0, 5.0),
-        ];
+        ]);
         let strokes: Vec<Entity> = strokes(&moves, 0.01).collect();
         let layers: Vec<Layer> = strokes.iter().map(|s| s.layer).collect();
         assert_eq!(layers, [Layer::Rapid, Layer::Entry, Layer::Toolpath, Layer::Rapid]);
@@ -135,7 +137,7 @@ mod tests {
 
     #[test]
     fn a_helix_keeps_to_the_tolerance_and_no_number_asks_for_more_than_the_limit() {
-        let moves = [rapid(10.0, 0.0, 1.0), arc(-10.0, 0.0, 0.0, point(0.0, 0.0))];
+        let moves = Moves::from([rapid(10.0, 0.0, 1.0), arc(-10.0, 0.0, 0.0, point(0.0, 0.0))]);
         let helix = strokes(&moves, 0.01).next().unwrap();
         let Shape::Way(places) = helix.shape else { panic!() };
         for pair in places.windows(2) {
@@ -150,7 +152,7 @@ mod tests {
 
     #[test]
     fn nothing_and_one_move_draw_nothing() {
-        assert_eq!(strokes(&[], 0.01).count(), 0);
-        assert_eq!(strokes(&[rapid(0.0, 0.0, 5.0)], 0.01).count(), 0);
+        assert_eq!(strokes(&Moves::default(), 0.01).count(), 0);
+        assert_eq!(strokes(&[rapid(0.0, 0.0, 5.0)].into(), 0.01).count(), 0);
     }
 }
