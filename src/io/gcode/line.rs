@@ -36,19 +36,53 @@ impl Line {
         self.length = end;
     }
 
-    /// Appends a number given in steps of its last decimal: all decimals, and no sign on zero.
-    pub fn push_steps(&mut self, steps: i64, decimals: u32) {
-        if steps < 0 {
-            self.push("-");
-        }
+    /// Appends a letter and its number, given in steps of its last decimal: all decimals, and no sign on zero.
+    pub fn word(&mut self, letter: u8, steps: i64, decimals: u32) {
+        let at = self.length;
+        self.text[at..at + 3].copy_from_slice(&[b' ', letter, b'-']);
+        let begin = at + 2 + usize::from(steps < 0);
         let steps = steps.unsigned_abs();
+        // Most numbers are short, and the shorter ones are divided faster.
+        self.length = match u32::try_from(steps) {
+            Ok(steps) => self.short(begin, steps, decimals),
+            Err(_) => self.long(begin, steps, decimals),
+        };
+    }
+
+    fn short(&mut self, begin: usize, steps: u32, decimals: u32) -> usize {
         let digits = 1 + steps.checked_ilog10().unwrap_or(0);
-        let point = self.length + digits.saturating_sub(decimals).max(1) as usize;
+        let point = begin + digits.saturating_sub(decimals).max(1) as usize;
+        let end = point + 1 + decimals as usize;
+        let mut rest = steps;
+        let mut at = end;
+        while at > point + 2 {
+            at -= 2;
+            self.text[at..at + 2].copy_from_slice(&PAIRS[(rest % 100) as usize]);
+            rest /= 100;
+        }
+        while at > point + 1 {
+            at -= 1;
+            self.text[at] = b'0' + (rest % 10) as u8;
+            rest /= 10;
+        }
+        self.text[point] = b'.';
+        at = point;
+        while at > begin {
+            at -= 1;
+            self.text[at] = b'0' + (rest % 10) as u8;
+            rest /= 10;
+        }
+        end
+    }
+
+    fn long(&mut self, begin: usize, steps: u64, decimals: u32) -> usize {
+        let digits = 1 + steps.checked_ilog10().unwrap_or(0);
+        let point = begin + digits.saturating_sub(decimals).max(1) as usize;
         let end = point + 1 + decimals as usize;
         let whole = fill(&mut self.text[point + 1..end], steps);
         self.text[point] = b'.';
-        fill(&mut self.text[self.length..point], whole);
-        self.length = end;
+        fill(&mut self.text[begin..point], whole);
+        end
     }
 }
 
@@ -83,8 +117,8 @@ mod tests {
     fn written(steps: i64, decimals: u32) -> String {
         let mut line = Line::new();
         line.begin("");
-        line.push_steps(steps, decimals);
-        String::from_utf8(line.text().to_vec()).unwrap()
+        line.word(b'X', steps, decimals);
+        String::from_utf8(line.text()[2..].to_vec()).unwrap()
     }
 
     #[test]
@@ -95,13 +129,28 @@ mod tests {
     }
 
     #[test]
+    fn short_and_long_numbers_are_written_alike() {
+        let limit = i64::from(u32::MAX);
+        for decimals in 0..=6 {
+            for steps in (0..40).map(|i| 3i64.pow(i)).chain([limit, limit + 1, 9_999, 10_000]) {
+                let scale = 10i64.pow(decimals);
+                let point = if decimals == 0 { "0." } else { "" };
+                let known =
+                    format!(" X-{}.{:0width$}", steps / scale, steps % scale, width = decimals as usize);
+                let known = if point.is_empty() { known } else { format!(" X-{steps}.") };
+                let mut line = Line::new();
+                line.begin("");
+                line.word(b'X', -steps, decimals);
+                assert_eq!(line.text(), known.as_bytes());
+            }
+        }
+    }
+
+    #[test]
     fn the_longest_line_has_room() {
         let mut line = Line::new();
         line.begin("G2");
-        for letter in [" X", " Y", " Z", " I", " J"] {
-            line.push(letter);
-            line.push_steps(i64::MIN, 6);
-        }
+        b"XYZIJ".iter().for_each(|letter| line.word(*letter, i64::MIN, 6));
         assert!(line.text().ends_with(b" J-9223372036854.775808"));
     }
 }

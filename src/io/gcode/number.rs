@@ -63,8 +63,9 @@ mod tests {
         let grid = Grid::new(4);
         let text = |v| {
             let mut line = Line::new();
-            line.push_steps(grid.round("x", v).unwrap(), 4);
-            String::from_utf8(line.text().to_vec()).unwrap()
+            line.begin("");
+            line.word(b'X', grid.round("x", v).unwrap(), 4);
+            String::from_utf8(line.text()[2..].to_vec()).unwrap()
         };
         assert_eq!(text(-0.00001), "0.0000");
         assert_eq!(text(-0.00006), "-0.0001");

@@ -201,9 +201,9 @@ impl<'a> Writer<'a> {
                 Fit::Nothing => self.vanished(z, part == drawn, to, rate)?,
                 Fit::Line => self.straight(end, z, rate)?,
                 Fit::Center([i, j]) => {
-                    self.curved(part.bulge > 0.0, end, z, &[(" I", i), (" J", j)], rate)?;
+                    self.curved(part.bulge > 0.0, end, z, &[(b'I', i), (b'J', j)], rate)?;
                 }
-                Fit::Radius(r) => self.curved(part.bulge > 0.0, end, z, &[(" R", r)], rate)?,
+                Fit::Radius(r) => self.curved(part.bulge > 0.0, end, z, &[(b'R', r)], rate)?,
                 Fit::Halves => {
                     let (a, b) = part.split(0.5);
                     let middle = 0.5 * (z0 + z1);
@@ -253,14 +253,14 @@ impl<'a> Writer<'a> {
         ccw: bool,
         xy: [i64; 2],
         z: i64,
-        center: &[(&str, i64)],
+        center: &[(u8, i64)],
         rate: f64,
     ) -> Result<(), Error> {
         self.words.begin(if ccw { "G3" } else { "G2" });
-        self.word(" X", xy[0]);
-        self.word(" Y", xy[1]);
+        self.word(b'X', xy[0]);
+        self.word(b'Y', xy[1]);
         self.z_word(z);
-        center.iter().for_each(|(letter, steps)| self.word(letter, *steps));
+        center.iter().for_each(|&(letter, steps)| self.word(letter, steps));
         (self.xy, self.z) = (Some(xy), Some(z));
         self.out.stats.arcs += 1;
         self.cut(rate)
@@ -289,14 +289,13 @@ impl<'a> Writer<'a> {
         Ok(())
     }
 
-    fn word(&mut self, letter: &str, steps: i64) {
-        self.words.push(letter);
-        self.words.push_steps(steps, self.setup.decimals);
+    fn word(&mut self, letter: u8, steps: i64) {
+        self.words.word(letter, steps, self.setup.decimals);
     }
 
     /// X and Y where they differ from where the tool is.
     fn plane_words(&mut self, xy: [i64; 2]) {
-        for (axis, letter) in [" X", " Y"].into_iter().enumerate() {
+        for (axis, letter) in [b'X', b'Y'].into_iter().enumerate() {
             if self.xy.is_none_or(|now| now[axis] != xy[axis]) {
                 self.word(letter, xy[axis]);
             }
@@ -305,7 +304,7 @@ impl<'a> Writer<'a> {
 
     fn z_word(&mut self, z: i64) {
         if self.z != Some(z) {
-            self.word(" Z", z);
+            self.word(b'Z', z);
         }
     }
 
