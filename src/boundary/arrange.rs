@@ -15,6 +15,7 @@ use super::index::Index;
 use super::intersect::meet;
 use crate::error::Error;
 use crate::geom::{ArcSpline, Bounds, Element, Point, Vertex};
+use rayon::prelude::*;
 
 /// Pairs of elements near each other that are looked at, and pairs of boxes that meet: limits on effort. A
 /// drawing in which contours hardly meet has a few of the first for each element; the walls of a spiral of a
@@ -25,9 +26,10 @@ const BOX_LIMIT: usize = 400_000_000;
 /// Gives contours common vertices where they meet. Contours that vanish are left empty.
 pub(super) fn arrange(contours: &mut [Contour], grain: Grain) -> Result<(), Error> {
     snap(contours, grain);
-    let elements: Vec<Element> = contours.iter().flat_map(|c| c.path.elements()).collect();
+    let elements = Elements::of(contours);
     let mut meetings = meetings(&elements, grain)?;
     unite(&elements, &mut meetings, grain);
+    drop(elements);
     meetings.sort_by(|a, b| a.element.cmp(&b.element).then(a.parameter.total_cmp(&b.parameter)));
     let (mut first, mut rest) = (0, &meetings[..]);
     for contour in contours {
@@ -39,6 +41,35 @@ pub(super) fn arrange(contours: &mut [Contour], grain: Grain) -> Result<(), Erro
         (first, rest) = (last, &rest[own..]);
     }
     Ok(())
+}
+
+/// The elements of contours, numbered from one to the next.
+struct Elements<'a> {
+    contours: &'a [Contour],
+    /// For each element its contour.
+    contour_of: Vec<u32>,
+    /// For each contour the number of its first element.
+    first: Vec<u32>,
+}
+
+impl<'a> Elements<'a> {
+    fn of(contours: &'a [Contour]) -> Elements<'a> {
+        let (mut contour_of, mut first) = (Vec::new(), Vec::with_capacity(contours.len()));
+        for (i, contour) in (0..).zip(contours) {
+            first.push(contour_of.len() as u32);
+            contour_of.resize(contour_of.len() + contour.path.len(), i);
+        }
+        Elements { contours, contour_of, first }
+    }
+
+    fn get(&self, i: u32) -> Element {
+        let contour = self.contour_of[i as usize] as usize;
+        self.contours[contour].path.element((i - self.first[contour]) as usize)
+    }
+
+    fn iter(&self) -> impl Iterator<Item = Element> + Clone {
+        (0..self.contour_of.len() as u32).map(|i| self.get(i))
+    }
 }
 
 /// A place inside an element where another one meets it.
@@ -68,15 +99,15 @@ fn snap(contours: &mut [Contour], grain: Grain) {
 }
 
 /// All places where elements meet inside at least one of them, once for each of these.
-fn meetings(elements: &[Element], grain: Grain) -> Result<Vec<Meeting>, Error> {
+fn meetings(elements: &Elements, grain: Grain) -> Result<Vec<Meeting>, Error> {
     let mut found = Vec::new();
     let mut places = Vec::new();
     for (i, j) in near_pairs(elements, grain)? {
         places.clear();
-        meet(&elements[i as usize], &elements[j as usize], grain.same, &mut places);
+        let pair = [(i, elements.get(i)), (j, elements.get(j))];
+        meet(&pair[0].1, &pair[1].1, grain.same, &mut places);
         for &place in &places {
-            for element in [i, j] {
-                let e = &elements[element as usize];
+            for (element, e) in pair {
                 let parameter = e.parameter(place);
                 if place != e.start && place != e.end && parameter > 0.0 && parameter < 1.0 {
                     found.push(Meeting { element, parameter, place });
@@ -88,17 +119,20 @@ fn meetings(elements: &[Element], grain: Grain) -> Result<Vec<Meeting>, Error> {
 }
 
 /// Boxes of elements, grown by a margin, of long ones in pieces; each with the number of its element.
-pub(super) fn filed(elements: &[Element], margin: f64) -> (Vec<Bounds>, Vec<u32>) {
+pub(super) fn filed(elements: impl Iterator<Item = Element> + Clone, margin: f64) -> (Vec<Bounds>, Vec<u32>) {
     // Of at most a half circle, an element is not much longer than its chord.
     let chord = |e: &Element| e.chord().length();
-    let mean = elements.iter().map(chord).sum::<f64>() / elements.len().max(1) as f64;
-    let mut owners = Vec::with_capacity(2 * elements.len());
-    let mut boxes = Vec::with_capacity(2 * elements.len());
-    for (i, e) in elements.iter().enumerate() {
-        let count = ((chord(e) / mean).ceil() as usize).clamp(1, elements.len());
+    let (all, sum) = elements.clone().fold((0, 0.0), |(all, sum), e| (all + 1, sum + chord(&e)));
+    let mean = sum / f64::from(all.max(1));
+    let mut owners = Vec::with_capacity(2 * all as usize);
+    let mut boxes = Vec::with_capacity(2 * all as usize);
+    for (i, e) in elements.enumerate() {
+        // Of chords that are nearly equal about half are longer than the mean: those up to twice as long stay whole.
+        let count = if chord(&e) > 2.0 * mean { (chord(&e) / mean).ceil() as usize } else { 1 };
+        let count = count.clamp(1, all as usize);
         for piece in 0..count {
             let part = |k: usize| k as f64 / count as f64;
-            let piece = if count == 1 { *e } else { e.part(part(piece), part(piece + 1)) };
+            let piece = if count == 1 { e } else { e.part(part(piece), part(piece + 1)) };
             boxes.push(piece.bounds().grown(margin));
             owners.push(i as u32);
         }
@@ -107,33 +141,74 @@ pub(super) fn filed(elements: &[Element], margin: f64) -> (Vec<Bounds>, Vec<u32>
 }
 
 /// Pairs of elements whose boxes, piece by piece, come nearer than the round-off.
-fn near_pairs(elements: &[Element], grain: Grain) -> Result<Vec<(u32, u32)>, Error> {
-    let (boxes, owners) = filed(elements, grain.same);
+fn near_pairs(elements: &Elements, grain: Grain) -> Result<Vec<(u32, u32)>, Error> {
+    let (boxes, owners) = filed(elements.iter(), grain.same);
     let tree = Index::new(&boxes);
-    let (mut pairs, mut boxes_met) = (Vec::new(), 0);
-    for (piece, &i) in owners.iter().enumerate() {
-        tree.meeting(&boxes[piece], |other| {
-            let j = owners[other as usize];
-            if i < j {
-                boxes_met += 1;
-                let [a, b] = [i, j].map(|e| &elements[e as usize]);
-                // Sides of a strip are told in a few steps, where elements meet in many.
-                if !(lies_beside(a, b, grain.same) || lies_beside(b, a, grain.same)) {
-                    pairs.push((i, j));
-                }
-            }
-        });
+    drop(boxes);
+    let near = Near { elements, owners: &owners, tree: &tree, round_off: grain.same };
+    let (mut pairs, mut boxes_met, mut done) = (Vec::new(), 0, 0);
+    while done < owners.len() {
+        let next = owners.len().min(done + AT_ONCE);
+        let looked_at = tree
+            .in_order()
+            .skip(done)
+            .take(next - done)
+            .fold(Found::default, |found, piece| near.look(found, piece));
+        for found in looked_at.collect::<Vec<_>>() {
+            pairs.extend(found.pairs);
+            boxes_met += found.boxes_met;
+        }
+        done = next;
         for (count, limit) in [(pairs.len(), PAIR_LIMIT), (boxes_met, BOX_LIMIT)] {
             if count > limit {
-                let needed = (count / (piece + 1) * owners.len()) as u64;
+                let needed = (count as f64 / done as f64 * owners.len() as f64) as u64;
                 let what = "the search for crossings, in pairs of elements,";
                 return Err(Error::Effort { what, needed, limit: limit as u64 });
             }
         }
     }
-    pairs.sort_unstable();
+    drop(tree);
+    pairs.par_sort_unstable();
     pairs.dedup();
     Ok(pairs)
+}
+
+/// Pieces that are looked at before their pairs are counted.
+const AT_ONCE: usize = 1 << 16;
+
+/// Elements in a tree.
+struct Near<'a> {
+    elements: &'a Elements<'a>,
+    owners: &'a [u32],
+    tree: &'a Index,
+    round_off: f64,
+}
+
+/// What is found near some elements.
+#[derive(Default)]
+struct Found {
+    pairs: Vec<(u32, u32)>,
+    boxes_met: usize,
+}
+
+impl Near<'_> {
+    /// Adds what is near one more piece: elements of a higher number than its own.
+    fn look(&self, mut found: Found, (piece, bounds): (u32, &Bounds)) -> Found {
+        let i = self.owners[piece as usize];
+        let a = self.elements.get(i);
+        self.tree.meeting(bounds, |other| {
+            let j = self.owners[other as usize];
+            if i < j {
+                found.boxes_met += 1;
+                let b = self.elements.get(j);
+                // Sides of a strip are told in a few steps, where elements meet in many.
+                if !(lies_beside(&a, &b, self.round_off) || lies_beside(&b, &a, self.round_off)) {
+                    found.pairs.push((i, j));
+                }
+            }
+        });
+        found
+    }
 }
 
 /// Whether all of an element lies on one side of the strip between another one and its chord, farther from it than
@@ -153,7 +228,7 @@ fn lies_beside(element: &Element, strip: &Element, round_off: f64) -> bool {
 const BESIDE: f64 = 4.0;
 
 /// Makes places of meetings that are the same to round-off equal, to a vertex where there is one.
-fn unite(elements: &[Element], meetings: &mut [Meeting], grain: Grain) {
+fn unite(elements: &Elements, meetings: &mut [Meeting], grain: Grain) {
     if meetings.is_empty() {
         return;
     }

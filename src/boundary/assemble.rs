@@ -281,9 +281,9 @@ impl Drawing {
         };
         add(&mut self.overlaps, pieces.copies.first().map(|&at| (pieces.copies.len(), at)));
         let pieces = pieces.all;
-        let faces = Faces::new(&pieces, self.grain);
+        let (faces, rays) = Faces::new(&pieces, self.grain);
         let nests = Nests::new(&pieces, &faces, from_depth);
-        let left_out = nests.left_out(&pieces, &faces, &arranged.crossing);
+        let left_out = nests.left_out(&pieces, (&faces, &rays), &arranged.crossing);
         let (mut along, mut between) =
             (vec![false; arranged.dividers.len()], vec![false; arranged.dividers.len()]);
         for (i, piece) in pieces.iter().enumerate() {
@@ -302,7 +302,8 @@ impl Drawing {
         let mut unused = std::mem::take(&mut arranged.rest);
         let idle = arranged.dividers.drain(..).enumerate().filter(|(i, _)| !along[*i] && !between[*i]);
         unused.extend(idle.map(|(_, path)| path));
-        self.report_open(&unused, |p| nests.is_pocket(&faces, faces.around(p)));
+        self.report_open(&unused, |p| nests.is_pocket(&faces, faces.around(&rays, p)));
+        drop(rays);
         let mut found = pockets(&pieces, &faces, |face| nests.is_pocket(&faces, face) && !left_out[face]);
         found.retain(|pocket| self.is_more_than_a_gap(pocket));
         found

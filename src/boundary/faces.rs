@@ -24,7 +24,6 @@ use std::f64::consts::TAU;
 /// The faces between pieces. A face is named by one of the sides that bound it.
 #[derive(Debug)]
 pub(super) struct Faces {
-    rays: Rays,
     /// The class of every side.
     classes: Vec<usize>,
     /// For each face how many loops are around it.
@@ -67,12 +66,13 @@ impl Classes {
 }
 
 impl Faces {
-    /// Finds the faces between pieces.
-    pub fn new(pieces: &[Piece], grain: Grain) -> Faces {
+    /// Finds the faces between pieces, and what tells in which of them a place lies: that takes more room than
+    /// all the rest.
+    pub fn new(pieces: &[Piece], grain: Grain) -> (Faces, Rays) {
         let count = pieces.len();
         let paths: Vec<&ArcSpline> = pieces.iter().map(|p| &p.path).collect();
-        let rays = Rays::new(paths.iter().copied().enumerate());
         let junctions = Junctions::of(&paths, grain);
+        let rays = Rays::new(paths.iter().copied().enumerate());
         let mut classes = Classes::new(2 * count + 1);
         let (mut touching, mut woven) = (Classes::new(count), Classes::new(count));
         for junction in &junctions.all {
@@ -98,9 +98,9 @@ impl Faces {
         }
         let classes = classes.settled();
         let outer_sides = leftmost_sides(&rays, &paths, &woven, &junctions);
-        let mut faces = Faces { rays, classes, depth: Vec::new(), junctions, count };
+        let mut faces = Faces { classes, depth: Vec::new(), junctions, count };
         faces.measure_depth(pieces, &woven, &outer_sides);
-        faces
+        (faces, rays)
     }
 
     /// The face on the left of a piece: inside of a loop.
@@ -114,8 +114,8 @@ impl Faces {
     }
 
     /// The face in which a place lies that is on no piece.
-    pub fn around(&self, p: Point) -> usize {
-        let hit = self.rays.first(turned(p), |_| false);
+    pub fn around(&self, rays: &Rays, p: Point) -> usize {
+        let hit = rays.first(turned(p), |_| false);
         self.classes[hit.map_or(2 * self.count, side_of)]
     }
 
@@ -287,7 +287,7 @@ mod tests {
         let bounds = loops.iter().chain(dividers).fold(Bounds::EMPTY, |b, p| b.union(p.bounds()));
         let loops = loops.iter().map(|path| Loop { path: path.clone(), loose: false }).collect();
         let grain = Grain::of(&bounds);
-        Faces::new(&Pieces::of(loops, dividers, 0.0, grain).all, grain)
+        Faces::new(&Pieces::of(loops, dividers, 0.0, grain).all, grain).0
     }
 
     fn depths(loops: &[ArcSpline]) -> Vec<usize> {

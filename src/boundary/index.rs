@@ -5,6 +5,7 @@
 //! of node `n` are `2 n + 1` and `2 n + 2`, and ranges of items follow from halving.
 
 use crate::geom::Bounds;
+use rayon::prelude::*;
 
 /// Items of a leaf at most: below it, looking at them is cheaper than more tree.
 const LEAF: usize = 6;
@@ -64,14 +65,19 @@ impl Node {
 impl Index {
     /// The tree over some boxes; items are numbered in their order.
     pub fn new(boxes: &[Bounds]) -> Index {
-        let leaves = boxes.len().div_ceil(LEAF).max(1).next_power_of_two();
-        let mut centers: Vec<Center> =
-            boxes.iter().zip(0..).map(|(b, item)| Center { at: b.center().into(), item }).collect();
+        Index::of(boxes.len(), |item| boxes[item])
+    }
+
+    /// The tree over so many boxes, each of which is asked for twice.
+    pub fn of(count: usize, of_item: impl Fn(usize) -> Bounds) -> Index {
+        let leaves = count.div_ceil(LEAF).max(1).next_power_of_two();
+        let center = |item: u32| Center { at: of_item(item as usize).center().into(), item };
+        let mut centers: Vec<Center> = (0..count as u32).map(center).collect();
         halve(&mut centers, leaves);
         let items: Vec<u32> = centers.iter().map(|c| c.item).collect();
         drop(centers);
         let mut index = Index {
-            boxes: items.iter().map(|&i| boxes[i as usize]).collect(),
+            boxes: items.iter().map(|&i| of_item(i as usize)).collect(),
             items,
             nodes: vec![Bounds::EMPTY; 2 * leaves - 1],
             first_leaf: leaves - 1,
@@ -93,6 +99,11 @@ impl Index {
         };
         self.nodes[node.id] = bounds;
         bounds
+    }
+
+    /// All items with their boxes, neighbors mostly one after the other.
+    pub fn in_order(&self) -> impl IndexedParallelIterator<Item = (u32, &Bounds)> {
+        self.items.par_iter().copied().zip(&self.boxes)
     }
 
     /// Number of nodes.

@@ -54,7 +54,7 @@ pub(super) fn dividers(
 /// For each place whether it lies on a contour to round-off.
 fn lie_on(places: &[Point], contours: &[Contour], grain: Grain) -> Vec<bool> {
     let elements: Vec<Element> = contours.iter().flat_map(|c| c.path.elements()).collect();
-    let (boxes, owners) = filed(&elements, grain.same);
+    let (boxes, owners) = filed(elements.iter().copied(), grain.same);
     let tree = Index::new(&boxes);
     let lies_on = |p: &Point| {
         let mut found = false;

@@ -57,9 +57,14 @@ impl Rays {
                 each_monotone(&element, |element| pieces.push(Piece { element, owner }));
             }
         }
-        let boxes: Vec<Bounds> =
-            pieces.iter().map(|p| Bounds::around([p.element.start, p.element.end])).collect();
-        Rays { tree: Index::new(&boxes), pieces }
+        let bounds = |i: usize| {
+            let Element { start, end, .. } = pieces[i].element;
+            Bounds {
+                min: point(start.x.min(end.x), start.y.min(end.y)),
+                max: point(start.x.max(end.x), start.y.max(end.y)),
+            }
+        };
+        Rays { tree: Index::of(pieces.len(), bounds), pieces }
     }
 
     /// The first hit of the ray from a turned place, loops left out that are to be skipped.

@@ -47,10 +47,15 @@ impl Nests {
     }
 
     /// For each face whether it is in a nest with contours that cross.
-    pub fn left_out(&self, pieces: &[Piece], faces: &Faces, crossing: &[ArcSpline]) -> Vec<bool> {
+    pub fn left_out(
+        &self,
+        pieces: &[Piece],
+        (faces, rays): (&Faces, &Rays),
+        crossing: &[ArcSpline],
+    ) -> Vec<bool> {
         let mut out: HashSet<usize> = HashSet::new();
         for path in crossing {
-            let face = faces.around(inner_place(path));
+            let face = faces.around(rays, inner_place(path));
             if faces.depth[face] > self.from_depth {
                 out.insert(self.nest_of[face]);
             }

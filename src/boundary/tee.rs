@@ -164,7 +164,7 @@ impl Near {
         let owners: Vec<(usize, usize)> =
             curves.iter().enumerate().flat_map(|(i, p)| (0..p.len()).map(move |e| (i, e))).collect();
         let elements: Vec<Element> = owners.iter().map(|&(i, e)| curves[i].element(e)).collect();
-        let (boxes, filed) = filed(&elements, 0.0);
+        let (boxes, filed) = filed(elements.iter().copied(), 0.0);
         Near { elements, owners, filed, tree: Index::new(&boxes) }
     }
 
