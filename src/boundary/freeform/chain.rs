@@ -1,7 +1,8 @@
 //! Chains of a few arcs with common tangents between two ends that may slide.
 //!
 //! **Guarantees** that tangents agree at all joints, whatever the parameters are, and that these have units in
-//! which they matter about as much: parts of an arc, and tolerances.
+//! which they matter about as much: parts of an arc, and tolerances. How chains change with them is in
+//! [`super::changes`].
 
 use super::biarc::{Arc, Joint, Node, biarc};
 use super::density::{Cursor, Density};
@@ -9,7 +10,6 @@ use super::layout::Ends;
 use super::squares::{MOST_PARAMETERS, Parameters};
 use super::track::Track;
 use crate::geom::Vector;
-use std::cell::Cell;
 
 /// So many arcs at most: there are two slides, two parameters for each knot but the last, and the joint.
 pub(super) const MOST_ARCS: usize = MOST_PARAMETERS.div_ceil(2);
@@ -26,8 +26,8 @@ impl Joined {
     /// The same circle after some length.
     fn after(&self, length: f64) -> Joined {
         let angle = self.curvature * length;
-        let (sin, cos) = angle.sin_cos();
-        let half = (0.5 * angle).sin();
+        let (half, cos_half) = (0.5 * angle).sin_cos();
+        let (sin, cos) = (2.0 * half * cos_half, 1.0 - 2.0 * half * half);
         let (along, aside) = if angle == 0.0 {
             (length, 0.0)
         } else {
@@ -71,7 +71,6 @@ pub(super) struct Chain {
 #[derive(Debug)]
 pub(super) struct Links<'a, 'b> {
     track: &'a Track<'b>,
-    density: &'a Density,
     /// The ends, as chains run.
     pub ends: [End; 2],
     /// Whether chains run against the curve.
@@ -83,9 +82,9 @@ pub(super) struct Links<'a, 'b> {
     /// The unit of distances from the curve.
     pub tolerance: f64,
     /// Length of an arc, about.
-    length: f64,
-    /// For each knot, how far it was moved along the curve last, and the node there.
-    nodes: [Cell<(f64, Node)>; MOST_ARCS],
+    pub length: f64,
+    /// Where knots are to begin with: at equal shares of the density, with the curvature of the curve.
+    knots: [Joined; MOST_ARCS],
 }
 
 impl<'a, 'b> Links<'a, 'b> {
@@ -93,7 +92,7 @@ impl<'a, 'b> Links<'a, 'b> {
     /// it does not matter which way the curve is run; one arc alone leaves an end that does not slide.
     pub fn new(
         track: &'a Track<'b>,
-        (ends, density): (&Ends, &'a Density),
+        (ends, density): (&Ends, &Density),
         (arcs, tolerance): (usize, f64),
     ) -> Links<'a, 'b> {
         let [a, b] = ends.nodes;
@@ -111,8 +110,16 @@ impl<'a, 'b> Links<'a, 'b> {
         let ends = if backwards { [end(1), end(0)] } else { [end(0), end(1)] };
         let length = (b.place - a.place).length() / arcs as f64;
         let falls = ends[1].joined.curvature < ends[0].joined.curvature;
-        let nodes = std::array::from_fn(|_| Cell::new((f64::NAN, Node::default())));
-        Links { track, density, ends, backwards, falls, arcs, tolerance, length, nodes }
+        let (mut knots, mut cursor) = ([Joined::default(); MOST_ARCS], Cursor::default());
+        let sign = if backwards { -1.0 } else { 1.0 };
+        for i in 1..(arcs - 1).max(1) {
+            let part = if backwards { i + 1 } else { i };
+            let node = track.node(density.beyond(density.total() * part as f64 / arcs as f64, &mut cursor));
+            let knot = if backwards { arcs - 1 - i } else { i };
+            let (tangent, curvature) = (node.tangent * sign, node.curvature * sign);
+            knots[knot] = Joined { place: node.place, tangent, curvature };
+        }
+        Links { track, ends, backwards, falls, arcs, tolerance, length, knots }
     }
 
     /// The number of parameters: those of knots, the slides, and the joint of the last two arcs.
@@ -163,19 +170,24 @@ impl<'a, 'b> Links<'a, 'b> {
         chain.arcs[..n].iter().all(|arc| arc.bulge.is_finite() && arc.bulge.abs() < 1.0).then_some(chain)
     }
 
-    /// The place at a share of the density, moved from its own share by a part of one, beside the curve by
-    /// some tolerances: to the side that the circle at the far end is on, so that mirrored curves have mirrored knots.
+    /// A knot moved by a part of an arc along a parabola that bends as the curve does, and from there by some
+    /// tolerances: to the side that the circle at the far end is on, so that mirrored curves have mirrored knots.
     fn knot(&self, i: usize, along: f64, aside: f64) -> Vector {
-        let (before, mut node) = self.nodes[i].get();
-        if before != along {
-            let part = (i as f64 + along) / self.arcs as f64;
-            let share = self.density.total() * if self.backwards { 1.0 - part } else { part };
-            let share = share.clamp(0.0, self.density.total());
-            node = self.track.node(self.density.beyond(share, &mut Cursor::default()));
-            self.nodes[i].set((along, node));
-        }
-        let aside = if self.backwards != self.falls { -aside } else { aside };
-        self.track.grid.snap(node.place + node.tangent.left() * (aside * self.tolerance))
+        let (knot, length) = (&self.knots[i], self.length * along);
+        let rise = 0.5 * knot.curvature * length * length + self.aside() * aside;
+        self.track.grid.snap(knot.place + knot.tangent * length + knot.tangent.left() * rise)
+    }
+
+    /// How a knot, moved along by a part of an arc, moves with both of its parameters.
+    pub fn moves(&self, i: usize, along: f64) -> [Vector; 2] {
+        let (knot, length) = (&self.knots[i], self.length * along);
+        let left = knot.tangent.left();
+        [(knot.tangent + left * (knot.curvature * length)) * self.length, left * self.aside()]
+    }
+
+    /// The unit of moves to the left.
+    fn aside(&self) -> f64 {
+        if self.falls { -self.tolerance } else { self.tolerance }
     }
 
     /// The arc that leaves a place along its tangent and touches the circle at the other end.

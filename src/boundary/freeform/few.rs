@@ -14,12 +14,14 @@
 use super::biarc::Arc;
 use super::bound::Distance;
 use super::chain::{Chain, Links, MOST_ARCS};
+use super::changes::Seen;
 use super::density::{Cursor, Density};
 use super::layout::Ends;
 use super::spiral::Cell;
-use super::squares::{Parameters, Squares};
+use super::squares::{MOST_ERRORS, Parameters, Squares};
 use super::track::Track;
 use crate::geom::Vector;
+use std::ops::Range;
 
 /// Samples of the curve for each arc, and beyond each end.
 const SAMPLES: usize = 8;
@@ -34,10 +36,6 @@ const GOAL: f64 = 0.9375;
 /// After some steps, an error by so many tolerances will not come down.
 const HOPELESS: [f64; MAX_STEPS] = [64.0, 6.0, 2.5, 1.625, 1.375, 1.25, 1.125, 1.0625];
 
-/// Difference of a parameter that tells a derivative, in the unit of that parameter: a part of an arc or
-/// the tolerance. Round-off of errors becomes larger by its inverse.
-const DIFFERENCE: f64 = 1.0 / 16.0;
-
 /// A parameter is corrected by so many of its units at most.
 const STRIDE: f64 = 0.5;
 
@@ -47,8 +45,11 @@ const STRAIGHT: f64 = 1.0 / 16.0;
 /// Round-off between a normal and where the curve crosses it, in that of a place.
 const CROSSING_ROUNDINGS: f64 = 4.0;
 
+/// Samples that are taken first, in case they are hopeless already: of so many one.
+const GLANCE: usize = 4;
+
 /// A sample of the curve.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 struct Sample {
     place: Vector,
     /// Whether it is where an arc over an apex was.
@@ -59,7 +60,9 @@ struct Sample {
 struct Search<'a, 'b> {
     track: &'a Track<'b>,
     links: Links<'a, 'b>,
-    samples: Vec<Sample>,
+    /// In the order of the arcs; `range` says which there are.
+    samples: [Sample; MOST_ERRORS],
+    range: Range<usize>,
 }
 
 /// Appends a number of arcs for a part whose density is known; answers whether it can.
@@ -73,9 +76,9 @@ pub(super) fn few(
         return false;
     }
     let links = Links::new(track, (ends, density), (arcs, tolerance));
-    let mut search = Search { track, links, samples: Vec::with_capacity(arcs * SAMPLES + 2 * BEYOND) };
-    search.take_samples(ends, density);
-    let Some(chain) = search.run() else { return false };
+    let range = BEYOND..BEYOND + arcs * SAMPLES;
+    let mut search = Search { track, links, samples: [Sample::default(); MOST_ERRORS], range };
+    let Some(chain) = search.begin(ends, density).and_then(|chain| search.run(chain)) else { return false };
     let begin = out.len();
     let proven = search.is_in_order(&chain) && search.prove(&chain, ends, out).is_some();
     if !proven {
@@ -85,69 +88,110 @@ pub(super) fn few(
 }
 
 impl<'a, 'b> Search<'a, 'b> {
-    /// Samples in the middles of equal shares of the density, and as far apart beyond the ends.
-    fn take_samples(&mut self, ends: &Ends, density: &Density) {
-        let (track, count) = (self.track, self.links.arcs * SAMPLES);
+    /// Takes samples; answers the chain to begin with, unless some are too far from it.
+    fn begin(&mut self, ends: &Ends, density: &Density) -> Option<Chain> {
+        let chain = self.links.chain(&Parameters::default())?;
+        let inner = self.range.clone();
+        let all = |i: usize| i % GLANCE == GLANCE / 2;
+        self.take_shares(density, all);
+        let glanced = inner.clone().filter(|i| all(i - BEYOND)).map(|i| self.samples[i].place);
+        let mut near = 0;
+        for place in glanced {
+            let (error, next) = self.error(&chain, &Sample { place, beyond: false }, near);
+            near = next;
+            if !(error.abs() <= HOPELESS[0]) {
+                return None;
+            }
+        }
+        self.take_shares(density, |i| !all(i));
+        for end in 0..2 {
+            self.take_beyond(ends, end);
+        }
+        Some(chain)
+    }
+
+    /// Samples in the middles of equal shares of the density, or some of them.
+    fn take_shares(&mut self, density: &Density, taken: impl Fn(usize) -> bool) {
+        let count = self.links.arcs * SAMPLES;
         let share = density.total() / count as f64;
         let mut cursor = Cursor::default();
-        let shares = (0..count).map(|i| density.beyond((i as f64 + 0.5) * share, &mut cursor));
-        let inner: Vec<Vector> = shares.map(|u| track.place(u)).collect();
-        let beyond = |end: usize, nearest: Vector| {
-            let (node, limit) = (ends.nodes[end], ends.reach[end]);
-            let stride = 2.0 * (nearest - node.place).length();
-            let count = if ends.circles[end].is_some() { BEYOND } else { 0 };
-            let parameter = move |i| track.beyond_distance(&node, (i as f64 + 0.5) * stride, (limit, limit));
-            (0..count).map(parameter).take_while(move |&u| u != limit).map(move |u| track.place(u))
-        };
-        self.samples.extend(beyond(0, inner[0]).map(|place| Sample { place, beyond: true }));
-        self.samples.reverse();
-        self.samples.extend(inner.iter().map(|&place| Sample { place, beyond: false }));
-        self.samples.extend(beyond(1, inner[count - 1]).map(|place| Sample { place, beyond: true }));
-        if self.links.backwards {
-            self.samples.reverse();
+        for i in 0..count {
+            let at = if self.links.backwards { count - 1 - i } else { i };
+            if taken(at) {
+                let u = density.beyond((i as f64 + 0.5) * share, &mut cursor);
+                self.samples[BEYOND + at].place = self.track.place(u);
+            }
         }
     }
 
-    /// How far samples are to the left of the arcs, in tolerances.
-    fn errors(&self, chain: &Chain, errors: &mut Vec<f64>) {
-        errors.clear();
-        let mut i = 0;
-        for sample in &self.samples {
-            while i <= self.links.arcs && chain.joints[i].is_before(sample.place) {
-                i += 1;
-            }
-            let inside = i > 0 && i <= self.links.arcs;
-            let error = match i {
-                _ if !inside && sample.beyond => 0.0,
-                0 => self.links.ends[0].joined.left_of(sample.place),
-                i if i > self.links.arcs => self.links.ends[1].joined.left_of(sample.place),
-                i => chain.joints[i - 1].left_of(sample.place),
-            };
-            errors.push(error / self.links.tolerance);
+    /// Samples as far apart beyond an end that slides.
+    fn take_beyond(&mut self, ends: &Ends, end: usize) {
+        if ends.circles[end].is_none() {
+            return;
         }
+        let (node, limit) = (ends.nodes[end], ends.reach[end]);
+        let behind = self.links.backwards != (end == 1);
+        let nearest =
+            self.samples[if behind { BEYOND + self.links.arcs * SAMPLES - 1 } else { BEYOND }].place;
+        let stride = 2.0 * (nearest - node.place).length();
+        for i in 0..BEYOND {
+            let u = self.track.beyond_distance(&node, (i as f64 + 0.5) * stride, (limit, limit));
+            if u == limit {
+                break;
+            }
+            let at = if behind { self.range.end } else { self.range.start - 1 };
+            self.samples[at] = Sample { place: self.track.place(u), beyond: true };
+            self.range = self.range.start.min(at)..self.range.end.max(at + 1);
+        }
+    }
+
+    /// How far a sample is to the left of the arcs, in tolerances, and the first joint that it is not before; those
+    /// up to `i` it is not.
+    fn error(&self, chain: &Chain, sample: &Sample, mut i: usize) -> (f64, usize) {
+        let arcs = self.links.arcs;
+        while i <= arcs && chain.joints[i].is_before(sample.place) {
+            i += 1;
+        }
+        let error = match i {
+            0 if sample.beyond => 0.0,
+            0 => self.links.ends[0].joined.left_of(sample.place),
+            i if i > arcs && sample.beyond => 0.0,
+            i if i > arcs => self.links.ends[1].joined.left_of(sample.place),
+            i => chain.joints[i - 1].left_of(sample.place),
+        };
+        (error / self.links.tolerance, i)
+    }
+
+    /// Errors of all samples; answers on which arcs they are, 0 and one too many for none.
+    fn take_errors(&self, chain: &Chain, fit: &mut Squares) -> [usize; MOST_ERRORS] {
+        let (mut on, mut near) = ([0; MOST_ERRORS], 0);
+        for (i, sample) in self.samples[self.range.clone()].iter().enumerate() {
+            (fit.errors[i], near) = self.error(chain, sample, near);
+            on[i] = near;
+        }
+        on
     }
 
     /// Corrects parameters until the arcs are near enough, if they become so.
-    fn run(&self) -> Option<Chain> {
+    fn run(&self, mut chain: Chain) -> Option<Chain> {
         let mut parameters = Parameters::default();
-        let mut chain = self.links.chain(&parameters)?;
-        let mut fit = Squares::new(self.samples.len(), self.links.parameters());
+        let mut fit = Squares::new(self.range.len(), self.links.parameters());
         let mut moved = f64::INFINITY;
         for hopeless in HOPELESS {
-            self.errors(&chain, &mut fit.errors);
-            let worst = fit.errors.iter().fold(0.0, |m: f64, e| m.max(e.abs()));
+            let on = self.take_errors(&chain, &mut fit);
+            let worst = fit.worst();
             if worst <= GOAL {
                 return Some(chain);
             }
             let in_vain = moved <= STRAIGHT && fit.least() > GOAL;
-            if worst > hopeless || worst.is_nan() || fit.slopes.is_empty() || in_vain {
+            if worst > hopeless || worst.is_nan() || self.links.parameters() == 0 || in_vain {
                 return None;
             }
             if moved.is_finite() {
                 fit.weigh(worst);
             }
             if moved > STRAIGHT {
-                self.take_slopes(&parameters, &mut fit)?;
+                self.take_slopes((&parameters, &chain), &on, &mut fit);
             }
             let step = fit.step()?;
             let longest = step.iter().fold(0.0, |m: f64, s| m.max(s.abs()));
@@ -163,15 +207,25 @@ impl<'a, 'b> Search<'a, 'b> {
         None
     }
 
-    /// How errors change with each parameter.
-    fn take_slopes(&self, parameters: &Parameters, fit: &mut Squares) -> Option<()> {
-        for (i, slope) in fit.slopes.iter_mut().enumerate() {
-            let mut other = *parameters;
-            other[i] += DIFFERENCE;
-            self.errors(&self.links.chain(&other)?, slope);
-            slope.iter_mut().zip(&fit.errors).for_each(|(c, e)| *c = (*c - e) / DIFFERENCE);
+    /// How errors change with each parameter; those of samples that are on no arc do not.
+    fn take_slopes(
+        &self,
+        (parameters, chain): (&Parameters, &Chain),
+        on: &[usize; MOST_ERRORS],
+        fit: &mut Squares,
+    ) {
+        let (arcs, count) = (self.links.arcs, self.links.parameters());
+        let changes = self.links.changes(parameters, chain);
+        for (i, sample) in self.samples[self.range.clone()].iter().enumerate() {
+            if !(1..=arcs).contains(&on[i]) {
+                (0..count).for_each(|j| fit.slopes[j][i] = 0.0);
+                continue;
+            }
+            let seen = Seen::from(&chain.joints[on[i] - 1], sample.place);
+            for (j, change) in changes[on[i] - 1][..count].iter().enumerate() {
+                fit.slopes[j][i] = seen.change(change) / self.links.tolerance;
+            }
         }
-        Some(())
     }
 
     /// Whether curvatures rise or fall all along, those of arcs over apices included.

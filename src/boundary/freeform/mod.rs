@@ -34,6 +34,7 @@ mod bernstein;
 mod biarc;
 mod bound;
 mod chain;
+mod changes;
 mod chords;
 mod cuts;
 mod density;

@@ -8,8 +8,14 @@
 /// Parameters at most.
 pub(super) const MOST_PARAMETERS: usize = 9;
 
+/// Errors at most.
+pub(super) const MOST_ERRORS: usize = 48;
+
 /// Keeps steps finite where a parameter does nothing.
 const DAMPING: f64 = 1e-9;
+
+/// One number for each error; those that are too many are zero.
+pub(super) type Column = [f64; MOST_ERRORS];
 
 /// Parameters, in their units.
 pub(super) type Parameters = [f64; MOST_PARAMETERS];
@@ -17,17 +23,28 @@ pub(super) type Parameters = [f64; MOST_PARAMETERS];
 /// Errors, how they change with each parameter, and how much they weigh.
 pub(super) struct Squares {
     /// The errors.
-    pub errors: Vec<f64>,
+    pub errors: Column,
     /// For each parameter, how errors change with it.
-    pub slopes: Vec<Vec<f64>>,
-    weights: Vec<f64>,
+    pub slopes: [Column; MOST_PARAMETERS],
+    weights: Column,
+    /// Numbers of errors and of parameters.
+    count: usize,
+    parameters: usize,
 }
 
 impl Squares {
     /// No errors yet of some samples; all weigh the same.
-    pub fn new(samples: usize, parameters: usize) -> Squares {
-        let slopes = (0..parameters).map(|_| Vec::with_capacity(samples)).collect();
-        Squares { errors: Vec::with_capacity(samples), slopes, weights: vec![1.0; samples] }
+    pub fn new(count: usize, parameters: usize) -> Squares {
+        let mut weights = [0.0; MOST_ERRORS];
+        weights[..count].fill(1.0);
+        let (errors, slopes) = ([0.0; MOST_ERRORS], [[0.0; MOST_ERRORS]; MOST_PARAMETERS]);
+        Squares { errors, slopes, weights, count, parameters }
+    }
+
+    /// The largest error; not a number if any is none.
+    pub fn worst(&self) -> f64 {
+        let errors = self.errors[..self.count].iter();
+        errors.fold(0.0, |m: f64, e| if e.abs() <= m { m } else { e.abs() })
     }
 
     /// The weighted mean of errors that are as small as they can be: no largest one can be smaller.
@@ -38,15 +55,14 @@ impl Squares {
 
     /// The step that makes the weighted squares least.
     pub fn step(&self) -> Option<Parameters> {
-        let n = self.slopes.len();
+        let n = self.parameters;
         let mut matrix = [[0.0; MOST_PARAMETERS + 1]; MOST_PARAMETERS];
-        let mut weighted = vec![0.0; self.weights.len()];
-        for (i, slope) in self.slopes.iter().enumerate() {
-            for ((to, w), a) in weighted.iter_mut().zip(&self.weights).zip(slope) {
-                *to = w * a;
-            }
-            let with = |other: &[f64]| dot(&weighted, other);
-            for (j, other) in self.slopes.iter().enumerate().skip(i) {
+        // Those beyond the last error are zero.
+        let count = self.count.next_multiple_of(4);
+        for (i, slope) in self.slopes[..n].iter().enumerate() {
+            let weighted: Column = std::array::from_fn(|k| self.weights[k] * slope[k]);
+            let with = |other: &Column| dot(&weighted[..count], &other[..count]);
+            for (j, other) in self.slopes[..n].iter().enumerate().skip(i) {
                 let sum = with(other);
                 (matrix[i][j], matrix[j][i]) = (sum, sum);
             }
@@ -59,7 +75,7 @@ impl Squares {
 
     /// What is far weighs more, up to the worst.
     pub fn weigh(&mut self, worst: f64) {
-        for (weight, error) in self.weights.iter_mut().zip(&self.errors) {
+        for (weight, error) in self.weights[..self.count].iter_mut().zip(&self.errors) {
             *weight *= error.abs() / worst + DAMPING;
         }
     }
@@ -67,13 +83,11 @@ impl Squares {
 
 /// The sum of products, four of them side by side.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let (a, b) = (a.chunks_exact(4), b.chunks_exact(4));
-    let rest: f64 = a.remainder().iter().zip(b.remainder()).map(|(x, y)| x * y).sum();
     let mut sums = [0.0; 4];
-    for (x, y) in a.zip(b) {
+    for (x, y) in a.chunks_exact(4).zip(b.chunks_exact(4)) {
         (0..4).for_each(|i| sums[i] += x[i] * y[i]);
     }
-    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
+    (sums[0] + sums[1]) + (sums[2] + sums[3])
 }
 
 /// Solves a symmetric system with positive pivots.
@@ -101,17 +115,22 @@ fn solved(matrix: &mut [[f64; MOST_PARAMETERS + 1]; MOST_PARAMETERS], n: usize) 
 mod tests {
     use super::*;
 
+    /// A column that begins with some numbers.
+    fn column(numbers: &[f64]) -> Column {
+        std::array::from_fn(|i| numbers.get(i).copied().unwrap_or(0.0))
+    }
+
     #[test]
     fn weights_lead_to_the_least_largest_error() {
         // A line for the squares of 0 to 1: the least largest error is 1/8, on both sides in turn.
         let places: Vec<f64> = (0..=32).map(|i| f64::from(i) / 32.0).collect();
         let mut fit = Squares::new(places.len(), 2);
-        fit.slopes = vec![vec![1.0; places.len()], places.clone()];
+        (fit.slopes[0], fit.slopes[1]) = (column(&vec![1.0; places.len()]), column(&places));
         let errors = |p: &Parameters| places.iter().map(|x| p[0] + p[1] * x - x * x).collect::<Vec<f64>>();
         let mut parameters = Parameters::default();
         for round in 0..40 {
-            fit.errors = errors(&parameters);
-            let worst = fit.errors.iter().fold(0.0, |m: f64, e| m.max(e.abs()));
+            fit.errors = column(&errors(&parameters));
+            let worst = fit.worst();
             if round > 0 {
                 assert!(fit.least() < 0.125 + 1e-6 && worst > 0.125 - 1e-6, "{round}: {worst}");
                 fit.weigh(worst);
@@ -125,8 +144,8 @@ mod tests {
     #[test]
     fn a_parameter_that_does_nothing_stays() {
         let mut fit = Squares::new(3, 2);
-        fit.errors = vec![1.0, 2.0, 3.0];
-        fit.slopes = vec![vec![1.0, 1.0, 1.0], vec![0.0; 3]];
+        fit.errors = column(&[1.0, 2.0, 3.0]);
+        fit.slopes[0] = column(&[1.0, 1.0, 1.0]);
         let step = fit.step().expect("damped");
         assert!((step[0] + 2.0).abs() < 1e-6 && step[1] == 0.0, "{step:?}");
     }
