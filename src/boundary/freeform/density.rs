@@ -110,15 +110,16 @@ impl Density {
 
     /// Appends leaves between two parameters.
     fn append(&mut self, track: &Track, [from, to]: [f64; 2], density: &impl Fn(&Jet) -> f64) {
-        let mut whole = from.floor();
-        while whole < to {
+        let mut i = from as usize;
+        while (i as f64) < to {
+            let whole = i as f64;
             let (a, b) = ((from - whole).max(0.0), (to - whole).min(1.0));
             if a < b {
-                let piece = track.piece(whole as usize);
+                let piece = track.piece(i);
                 let at = |t: f64| density(&piece.jet(t));
                 self.halve((whole, &at), (a, b), (at(a), at(b)), (0, self.precision));
             }
-            whole += 1.0;
+            i += 1;
         }
     }
 

@@ -1,5 +1,5 @@
 //! A proven bound on the distance between an arc and a short part of a piece of low degree, in a few
-//! steps and without division.
+//! steps and without division but in halves.
 //!
 //! **Needs** what [`super::bound`] needs, and gives the same answer where it gives one. **Guarantees** a
 //! bound that holds and is within the last of [`SLACKS`] of the largest distance. **Does not** answer for parts that
@@ -10,7 +10,8 @@
 //! and little else, so stationary places of the cubic, and a step or two of Newton's method, give the
 //! largest value `m` of `|N / D|`. That `b D - N` and `b D + N` are positive for a `b` little above `m` is
 //! then shown by the minimum of their cubic part, from which the other Chebyshev coefficients are
-//! taken off. The angle is monotone by the ranges of its factors.
+//! taken off. The angle is monotone by the ranges of its factors. Over an apex an arc errs like a quartic; each half
+//! of it does so like a cubic.
 
 use super::bound::{Distance, Frame};
 use super::piece::Piece;
@@ -47,6 +48,15 @@ pub(super) fn measure(frame: &Frame, piece: &Piece, (from, to): (f64, f64), limi
     if !piece.has_powers() {
         return None;
     }
+    let middle = 0.5 * (from + to);
+    whole(frame, piece, (from, to), limit).or_else(|| {
+        let before = whole(frame, piece, (from, middle), limit)?;
+        Some(before.max(whole(frame, piece, (middle, to), limit)?))
+    })
+}
+
+/// The same in one go.
+fn whole(frame: &Frame, piece: &Piece, (from, to): (f64, f64), limit: f64) -> Option<Distance> {
     let local = Local::of(frame, piece, 0.5 * (from + to), 0.5 * (to - from));
     if !local.runs_on(frame) {
         return None;

@@ -60,14 +60,17 @@ impl<'a> Track<'a> {
 
     /// The piece that holds a parameter, and the parameter in it.
     pub fn locate(&self, u: f64, side: Side) -> (&'a Piece, f64) {
-        let whole = if side == Side::Before { u.ceil() - 1.0 } else { u.floor() };
-        let whole = whole.max(0.0);
-        (&self.pieces[whole as usize % self.pieces.len()], u - whole)
+        let below = u as usize;
+        let at_end = side == Side::Before && below > 0 && below as f64 == u;
+        let whole = if at_end { below - 1 } else { below };
+        (self.piece(whole), u - whole as f64)
     }
 
     /// Piece `i`, counted on around a closed curve.
     pub fn piece(&self, i: usize) -> &'a Piece {
-        &self.pieces[i % self.pieces.len()]
+        // A division takes longer than all that a piece is asked for.
+        let n = self.pieces.len();
+        &self.pieces[if i < n { i } else { i % n }]
     }
 
     /// The node on the curve at a cut, with the one-sided tangent.
@@ -237,12 +240,12 @@ impl<'a> Track<'a> {
 
     /// Pieces between two parameters, and the parameters in them.
     fn ranges(&self, from: f64, to: f64) -> impl Iterator<Item = (&'a Piece, (f64, f64))> {
-        let (first, pieces) = (from.floor(), self.pieces);
-        let count = ((to - first).ceil()).max(0.0) as usize;
-        (0..count).filter_map(move |i| {
-            let whole = first + i as f64;
+        let (mut i, track) = (from as usize, *self);
+        std::iter::from_fn(move || {
+            let whole = i as f64;
             let (a, b) = ((from - whole).max(0.0), (to - whole).min(1.0));
-            (a < b).then(|| (&pieces[whole as usize % pieces.len()], (a, b)))
+            i += 1;
+            (a < b).then(|| (track.piece(i - 1), (a, b)))
         })
     }
 
@@ -252,11 +255,11 @@ impl<'a> Track<'a> {
             let (piece, t) = self.locate(u, Side::Before);
             (piece.at(t) - joint).dot(tangent)
         };
-        let mut whole = from.floor();
-        while whole + 1.0 < to && ahead(whole + 1.0) < 0.0 {
-            whole += 1.0;
+        let mut first = from as usize;
+        while ((first + 1) as f64) < to && ahead((first + 1) as f64) < 0.0 {
+            first += 1;
         }
-        let piece = self.piece(whole as usize);
+        let (piece, whole) = (self.piece(first), first as f64);
         let (mut low, mut high) = ((from - whole).max(0.0), (to - whole).min(1.0));
         let near = near - whole;
         let mut t = if near > low && near < high { near } else { 0.5 * (low + high) };
