@@ -11,13 +11,13 @@ use super::track::Track;
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
-/// Integrals over leaves are as precise, in biarcs, as this part of the round-off of places is in tolerances: that bound
-/// counts 32 roundings, and one alone is what leaves should not add to.
-const SHARE: f64 = 1.0 / 32.0;
+/// Integrals over leaves are as precise, in biarcs, as this many times the round-off of places is in tolerances: a node
+/// off by a part of a biarc makes arcs err by such a part of the tolerance.
+const SHARE: f64 = 4.0;
 
-/// They are as precise as this, in biarcs, at best: round-off of the density, which takes a cube
+/// They are as precise as this, in biarcs, at best: some times the round-off of the density, which takes a cube
 /// root to 40 bits.
-const FINEST: f64 = 1.0 / 1_099_511_627_776.0;
+const FINEST: f64 = 1.0 / 68_719_476_736.0;
 
 /// They need not be more precise than this, in biarcs.
 const COARSEST: f64 = 1.0 / 4_194_304.0;

@@ -134,11 +134,14 @@ impl<'a, 'b> Search<'a, 'b> {
         let nearest =
             self.samples[if behind { BEYOND + self.links.arcs * SAMPLES - 1 } else { BEYOND }].place;
         let stride = 2.0 * (nearest - node.place).length();
+        let mut near = limit;
         for i in 0..BEYOND {
-            let u = self.track.beyond_distance(&node, (i as f64 + 0.5) * stride, (limit, limit));
-            if u == limit {
+            let u = self.track.beyond_distance(&node, (i as f64 + 0.5) * stride, (near, limit));
+            if (limit - u) * (limit - node.u) <= 0.0 {
                 break;
             }
+            // The next one is about as far as this one from the one before.
+            near = node.u + (u - node.u) * (i as f64 + 1.5) / (i as f64 + 0.5);
             let at = if behind { self.range.end } else { self.range.start - 1 };
             self.samples[at] = Sample { place: self.track.place(u), beyond: true };
             self.range = self.range.start.min(at)..self.range.end.max(at + 1);

@@ -182,11 +182,16 @@ struct Draft {
 }
 
 impl Draft {
-    /// Takes over what is known of the same part, whose ends may have moved.
+    /// The same, with what is known of it.
+    fn again(&mut self) -> Draft {
+        let (density, inner) = (self.density.take(), self.inner.take());
+        Draft { stretches: self.stretches.clone(), density, inner, ..*self }
+    }
+
+    /// Takes over what is known of the same part, whose ends have moved.
     fn learn(&mut self, old: &mut Draft) {
         if (&self.stretches, self.care) == (&old.stretches, old.care) {
-            let to = if self.at == old.at { &mut self.density } else { &mut self.inner };
-            *to = old.density.take();
+            self.inner = old.density.take();
         }
     }
 }
@@ -271,13 +276,19 @@ impl Laid {
                 continue;
             }
             let at = [from, to].map(|i| self.at(i, work, plan));
-            let ends = self.ends(from..to, at, work)?;
             let care = plan.care[from];
-            let mut draft = Draft { stretches: from..to, care, at, ends, density: None, inner: None };
-            if let Ok(old) = before.binary_search_by_key(&from, |d| d.stretches.start) {
-                draft.learn(&mut before[old]);
+            let mut old =
+                before.binary_search_by_key(&from, |d| d.stretches.start).ok().map(|i| &mut before[i]);
+            if let Some(old) = &mut old
+                && (old.stretches.end, old.care, old.at) == (to, care, at)
+            {
+                drafts.push(old.again());
+            } else {
+                let ends = self.ends(from..to, at, work)?;
+                let mut draft = Draft { stretches: from..to, care, at, ends, density: None, inner: None };
+                old.into_iter().for_each(|old| draft.learn(old));
+                drafts.push(draft);
             }
-            drafts.push(draft);
             from = to;
         }
         Some(drafts)
@@ -286,16 +297,30 @@ impl Laid {
     /// What there is where stretch `i` begins: a node where there is no room for anything else.
     fn at(&mut self, i: usize, work: &Work, plan: &Plan) -> At {
         match plan.nodes[i] {
-            At::Apex(steps) if self.apex_arc(i, steps, work).is_some() => At::Apex(steps),
+            At::Apex(steps) if self.has_apex_arc(i, steps, work) => At::Apex(steps),
             _ => At::Node,
+        }
+    }
+
+    /// Whether there is an arc over the apex where stretch `i` begins.
+    fn has_apex_arc(&mut self, i: usize, steps: i32, work: &Work) -> bool {
+        let last = if i == 0 { work.run.stretches.len() } else { i };
+        match self.apex_arcs.get(&(last, steps)) {
+            Some(known) => known.is_some(),
+            None => self.apex_arc(i, steps, work).is_some(),
         }
     }
 
     /// The arc over the apex where stretch `i` begins; the first of a ring counts as the last.
     fn apex_arc(&mut self, i: usize, steps: i32, work: &Work) -> Option<ApexArc> {
         let i = if i == 0 { work.run.stretches.len() } else { i };
+        if let Some(known) = self.apex_arcs.get(&(i, steps)) {
+            return *known;
+        }
         let before = self.apex_arcs.get(&(i, steps - 1)).copied().flatten();
-        *self.apex_arcs.entry((i, steps)).or_insert_with(|| work.apex_arc(i, steps, before))
+        let found = work.apex_arc(i, steps, before);
+        self.apex_arcs.insert((i, steps), found);
+        found
     }
 
     fn ends(&mut self, range: Range<usize>, at: [At; 2], work: &Work) -> Option<Ends> {

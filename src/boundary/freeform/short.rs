@@ -1,5 +1,5 @@
 //! A proven bound on the distance between an arc and a short part of a piece of low degree, in a few
-//! steps and without division but in halves.
+//! steps and without division but in quarters.
 //!
 //! **Needs** what [`super::bound`] needs, and gives the same answer where it gives one. **Guarantees** a
 //! bound that holds and is within the last of [`SLACKS`] of the largest distance. **Does not** answer for parts that
@@ -10,7 +10,7 @@
 //! and little else, so stationary places of the cubic, and a step or two of Newton's method, give the
 //! largest value `m` of `|N / D|`. That `b D - N` and `b D + N` are positive for a `b` little above `m` is
 //! then shown by the minimum of their cubic part, from which the other Chebyshev coefficients are
-//! taken off. The angle is monotone by the ranges of its factors. Over an apex an arc errs like a quartic; each half
+//! taken off. The angle is monotone by the ranges of its factors. Over an apex an arc errs like a quartic; each quarter
 //! of it does so like a cubic.
 
 use super::bound::{Distance, Frame};
@@ -30,6 +30,9 @@ const LAST_STEP: f64 = 1e-3;
 /// Parts in which stationary places are looked for where all of them count.
 const PARTS: i32 = 8;
 
+/// Parts that are proven one by one where the whole is not.
+const QUARTERS: i32 = 4;
+
 /// A polynomial of degree 6.
 type Sextic = [f64; 2 * DEGREE + 1];
 
@@ -48,10 +51,12 @@ pub(super) fn measure(frame: &Frame, piece: &Piece, (from, to): (f64, f64), limi
     if !piece.has_powers() {
         return None;
     }
-    let middle = 0.5 * (from + to);
+    let part = |i: i32| from + (to - from) * f64::from(i) / f64::from(QUARTERS);
     whole(frame, piece, (from, to), limit).or_else(|| {
-        let before = whole(frame, piece, (from, middle), limit)?;
-        Some(before.max(whole(frame, piece, (middle, to), limit)?))
+        (0..QUARTERS).try_fold(Distance::ZERO, |distance, i| {
+            let next = whole(frame, piece, (part(i), part(i + 1)), limit)?;
+            Some(distance.max(next))
+        })
     })
 }
 

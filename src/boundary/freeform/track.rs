@@ -33,6 +33,10 @@ pub(super) enum Side {
 /// takes over when it fails.
 const MAX_STEPS: usize = 80;
 
+/// A derivative by so many times the round-off of places tells a direction: what control points and weights of
+/// different orders leave of that is more than one leg.
+const LEAST_LEG: f64 = 1_048_576.0;
+
 /// A jump of the derivative of the curvature by this part of it matters to a biarc over it.
 const KINK: f64 = 1.0 / 64.0;
 
@@ -82,13 +86,22 @@ impl<'a> Track<'a> {
         } else if t == 1.0 {
             place = piece.end();
         }
+        let jet = piece.jet(t);
+        let tangent = self.tangent(piece, (t, side), jet.d1).unit();
+        Node { u, place: self.grid.snap(place), tangent, curvature: jet.curvature() }
+    }
+
+    /// The one-sided direction at a parameter of a piece: that of the derivative, unless there is next to none.
+    fn tangent(&self, piece: &Piece, (t, side): (f64, Side), d1: Vector) -> Vector {
+        let way = if side == Side::Before { t } else { 1.0 - t };
+        if way * d1.length() > LEAST_LEG * self.noise {
+            return d1;
+        }
         let leg = match side {
             Side::Before => last_leg(&piece.part(0.0, t), self.noise),
             Side::After => first_leg(&piece.part(t, 1.0), self.noise),
         };
-        let jet = piece.jet(t);
-        let tangent = leg.unwrap_or(jet.d1).unit();
-        Node { u, place: self.grid.snap(place), tangent, curvature: jet.curvature() }
+        leg.unwrap_or(d1)
     }
 
     /// Whether the derivative of the curvature jumps where two pieces meet, other than by round-off or a
