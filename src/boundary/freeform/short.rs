@@ -28,7 +28,7 @@ const STEPS: usize = 8;
 const LAST_STEP: f64 = 1e-3;
 
 /// Parts in which stationary places are looked for where all of them count.
-const PARTS: i32 = 8;
+const PARTS: i32 = 4;
 
 /// Parts that are proven one by one where the whole is not.
 const QUARTERS: i32 = 4;

@@ -25,10 +25,10 @@ use super::track::{Side, Track};
 /// A few biarcs may fit in the end though errors say that so many more would be needed.
 const FEWER: f64 = 31.0 / 32.0;
 
-/// With so many biarcs by the density at most, a few arcs are searched for, from so many for each, in so many
-/// numbers.
+/// With so many biarcs by the density at most, a few arcs are searched for: from two for each, less what ends that
+/// slide spare, in so many numbers.
 const FEW: f64 = 2.25;
-const FEWEST: f64 = 1.75;
+const SPARED: f64 = 0.3;
 const TRIED: usize = 2;
 
 /// Layouts tried at most, and those with one number of arcs.
@@ -182,7 +182,7 @@ impl Spread {
 
     /// Appends a few arcs, if these will do and are found.
     fn lay_few(&self, track: &Track, ends: &Ends, (goal, total): (&Goal, f64), out: &mut Vec<Cell>) -> bool {
-        let least = ((FEWEST * total).ceil() as usize).max(1);
+        let least = ((2.0 * total - SPARED).ceil() as usize).max(1);
         let mut found = |arcs: usize| few(track, (ends, &self.density), (arcs, goal.tolerance), out);
         total <= FEW && goal.tilted && (least..least + TRIED).any(&mut found)
     }
