@@ -86,12 +86,12 @@ impl Links<'_, '_> {
             last = Motion::sliding(&self.ends[1], &chain.joints[n], -self.length);
             used += 1;
         }
-        for i in 0..n - 2 {
+        for (i, changes) in changes[..n - 2].iter_mut().enumerate() {
             let moves = self.moves(i + 1, parameters[used]);
             let (from, arc) = (&chain.joints[i], &chain.arcs[i]);
             for (j, at) in at[..used + 2].iter_mut().enumerate() {
                 let end = if j < used { Vector::default() } else { moves[j - used] };
-                (changes[i][j], *at) = at.leaving(from, arc.end - arc.start, end);
+                (changes[j], *at) = at.leaving(from, arc.end - arc.start, end);
             }
             used += 2;
         }
@@ -192,10 +192,10 @@ mod tests {
                     other[j] += step;
                     links.chain(&other).unwrap()
                 });
-                for i in 0..arcs {
+                for (i, changes) in changes[..arcs].iter().enumerate() {
                     let p = track.place((i as f64 + 0.5) / arcs as f64);
                     let [up, down] = moved.map(|chain| chain.joints[i].left_of(p));
-                    let change = Seen::from(&chain.joints[i], p).change(&changes[i][j]);
+                    let change = Seen::from(&chain.joints[i], p).change(&changes[j]);
                     let off = (up - down) / (2.0 * STEP) - change;
                     assert!(off.abs() < 1e-7, "{arcs} arcs, {j} to {i}: {change:e}, off by {off:e}");
                 }

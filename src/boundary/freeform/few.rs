@@ -99,7 +99,7 @@ impl<'a, 'b> Search<'a, 'b> {
         for place in glanced {
             let (error, next) = self.error(&chain, &Sample { place, beyond: false }, near);
             near = next;
-            if !(error.abs() <= HOPELESS[0]) {
+            if error.abs() > HOPELESS[0] || error.is_nan() {
                 return None;
             }
         }
