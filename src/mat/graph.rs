@@ -216,6 +216,7 @@ impl Graph {
         let shared = &*self;
         let edges = (0..self.edges.len()).into_par_iter().with_min_len(EDGES);
         let extrema: Vec<Extremum> = edges.filter_map(|id| shared.extremum(sites, id)).collect();
+        self.reserve([extrema.len(), 2 * extrema.len(), extrema.len()]);
         for Extremum { id, disk, feet } in extrema {
             let edge = self.edges[id];
             let middle = self.add_disk(disk);

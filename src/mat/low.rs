@@ -14,7 +14,7 @@
 use super::bvh::SearchDisk;
 use super::piece::Piece;
 use super::shot::{Field, RADIUS_ERROR, Shot};
-use super::site::{NONE, Site};
+use super::site::{Joint, NONE, Site};
 use super::track::Track;
 use crate::geom::{Point, Vector};
 use rayon::prelude::*;
@@ -102,7 +102,7 @@ impl<'a> Low<'a> {
     /// Looks for a site that holds back all disks over a part, around the middle one.
     fn look(&self, part: &Part) -> Found {
         let sites = self.field.sites;
-        if self.near.iter().any(|&i| i != NONE && part.is_held(&sites[i as usize])) {
+        if self.near.iter().any(|&i| i != NONE && part.is_held(sites, &sites[i as usize])) {
             return Found::Holds;
         }
         let (mut best, mut found) = (part.enough, Found::Nothing);
@@ -114,7 +114,7 @@ impl<'a> Low<'a> {
                 return None;
             }
             let margin = part.enough - distance;
-            found = if part.is_held(site) { Found::Holds } else { Found::Near(margin) };
+            found = if part.is_held(sites, site) { Found::Holds } else { Found::Near(margin) };
             best = if found == Found::Holds { 0.0 } else { distance };
             Some(disk(best))
         });
@@ -151,9 +151,11 @@ impl Part {
         a.max(b)
     }
 
-    /// Whether a site reaches into all disks.
-    fn is_held(&self, site: &Site) -> bool {
-        self.is_held_at(site.nearest(self.middle)) || self.is_held_along(site) || self.is_held_around(site)
+    /// Whether a site reaches into all disks, or it and one of its neighbors do.
+    fn is_held(&self, sites: &[Site], site: &Site) -> bool {
+        self.is_held_at(site.nearest(self.middle))
+            || self.is_held_along(site)
+            || self.is_held_around(sites, site)
     }
 
     /// Whether a place lies in all disks.
@@ -172,8 +174,21 @@ impl Part {
         slack < self.enough && site.distance(a).max(site.distance(b)) + slack < self.enough
     }
 
-    /// Whether an arc that bends like that of the centers reaches into all disks.
-    fn is_held_around(&self, site: &Site) -> bool {
+    /// Whether an arc that bends like that of the centers reaches into all disks, or it and another one that it
+    /// goes on in smoothly.
+    fn is_held_around(&self, sites: &[Site], site: &Site) -> bool {
+        let reaches = |site: &Site, end: Point| site.spans(site.nearest_on_carrier(end));
+        let all = |other: &Site| self.ends.iter().all(|&end| reaches(site, end) || reaches(other, end));
+        let [before, after] = [site.prev, site.next].map(|i| &sites[i as usize]);
+        let goes_on = |first: &Site| matches!(first.joint, Joint::Smooth { .. });
+        self.bends_with(site)
+            && (all(site)
+                || (goes_on(site) && all(after) && self.bends_with(after))
+                || (goes_on(before) && all(before) && self.bends_with(before)))
+    }
+
+    /// Whether the circle of an arc is as near to all centers as is enough, and bends with them.
+    fn bends_with(&self, site: &Site) -> bool {
         let (Some(own), Some(other)) = (self.around, site.center()) else { return false };
         let (bend, apart) = (own.distance(self.middle), own.distance(other));
         let from_other = self.ends.map(|end| end - other);
@@ -184,7 +199,6 @@ impl Part {
         let radius = site.curvature.abs().recip();
         let off = (nearest - radius).abs().max((farthest - radius).abs()) + RADIUS_ERROR * (radius + bend);
         // Seen from within the circle of centers, these run in one direction.
-        let spans = |end: Point| site.spans(other + (end - other) * (radius / end.distance(other)));
-        apart < bend && off < self.enough && self.ends.into_iter().all(spans)
+        apart < bend && off < self.enough
     }
 }

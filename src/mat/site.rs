@@ -115,10 +115,15 @@ impl Site {
         if to_start <= (c - self.end.point).length_squared() { self.start } else { self.end }
     }
 
+    /// The place on the carrier of the site nearest to a place.
+    pub fn nearest_on_carrier(&self, c: Point) -> Point {
+        let (s, normal) = self.carrier_distance(c);
+        c - normal * s
+    }
+
     /// The place on the site nearest to a place.
     pub fn nearest(&self, c: Point) -> Point {
-        let (s, normal) = self.carrier_distance(c);
-        let foot = c - normal * s;
+        let foot = self.nearest_on_carrier(c);
         if self.is_vertex || self.spans(foot) { foot } else { self.nearer_end(c).point }
     }
 
