@@ -88,7 +88,12 @@ impl Sites {
         for (i, part) in parts.iter().enumerate() {
             let after = &parts[(i + 1) % parts.len()];
             let joint = joint_between(part, after, self.noise);
-            self.push(part.start, part.end, part.curvature, false, joint, part.source);
+            if part.is_as_good_as_a_vertex(self.noise) {
+                let end = Foot { point: part.start.point, ..part.end };
+                self.push(part.start, end, 0.0, true, joint, part.source);
+            } else {
+                self.push(part.start, part.end, part.curvature, false, joint, part.source);
+            }
             if joint == Joint::Cone {
                 self.add_cone(part.end, after, direction);
             }
@@ -211,6 +216,18 @@ struct Part {
     unseen: f64,
     /// Whether it is the last part of its element.
     last: bool,
+}
+
+/// Directions that round-off turns by this angle are none: places of the
+/// boundary would come in another order than their normals.
+const NO_DIRECTION: f64 = 1.0 / 64.0;
+
+impl Part {
+    /// Whether it is a reflex arc so small that its places do not tell its directions. Then it is a vertex that has
+    /// these, and which is off by round-off.
+    fn is_as_good_as_a_vertex(&self, noise: f64) -> bool {
+        -self.curvature * PLACE_ROUNDINGS * noise > NO_DIRECTION
+    }
 }
 
 /// Whether a row of elements runs around a hole. The loops of a pocket tell it themselves, the outer one
