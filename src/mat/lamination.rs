@@ -307,7 +307,11 @@ impl Lamination {
 
     /// The site of the piece that ends at a visit.
     pub fn site_at(&self, visit: u32, sites: &[Site]) -> u32 {
-        let Visit { item, .. } = self.visits[visit as usize];
+        self.site_of(self.visits[visit as usize].item, sites)
+    }
+
+    /// The site that an item lies on.
+    fn site_of(&self, item: u32, sites: &[Site]) -> u32 {
         item.checked_sub(sites.len() as u32).map_or(item, |c| self.contacts[c as usize].site)
     }
 
@@ -319,7 +323,7 @@ impl Lamination {
     /// The piece that ends at an item and begins at the visit before, with none that follows.
     fn piece(&self, sites: &[Site], item: u32, before: u32) -> BoundaryPiece {
         let n = sites.len() as u32;
-        let site = item.checked_sub(n).map_or(item, |c| self.contacts[c as usize].site);
+        let site = self.site_of(item, sites);
         let contact = self.visits[before as usize].item.checked_sub(n);
         let from = contact.map_or(sites[site as usize].start, |c| self.contacts[c as usize].foot);
         BoundaryPiece { from, site, next: NONE, edge: NONE, begins: contact.is_none(), left_out: false }

@@ -218,8 +218,8 @@ struct Part {
     last: bool,
 }
 
-/// Directions that round-off turns by this angle are none: places of the
-/// boundary would come in another order than their normals.
+/// Directions that round-off turns by this angle are none: places of the boundary would come in another order than
+/// their normals.
 const NO_DIRECTION: f64 = 1.0 / 64.0;
 
 impl Part {
