@@ -199,13 +199,13 @@ impl Mat {
         if is_all && missed.is_none() {
             return Ok(walk.touches);
         }
-        let at = missed.map_or(Point::default(), |i| pieces[i].from.point);
+        let at = missed.map_or(Point::default(), |i| self.graph.from(&self.sites, i as u32).point);
         Err(Mismatch::Boundary { at: self.frame.leave(at) })
     }
 
     /// Walks around a ring that begins in a disk, unless it was walked around.
     fn walk_ring(&self, first: u32, begin: u32, walk: &mut Walk) -> Result<(), Mismatch> {
-        let at = || self.frame.leave(self.graph.pieces[first as usize].from.point);
+        let at = || self.frame.leave(self.graph.from(&self.sites, first).point);
         let goes_on = walk.seen[first as usize] || self.goes_around(first, begin, walk).is_some();
         goes_on.then_some(()).ok_or_else(|| Mismatch::Boundary { at: at() })
     }
@@ -252,11 +252,10 @@ impl Mat {
     /// Whether the piece that follows one on a site begins the next site; `None` if it does not follow.
     fn enters_site(&self, site: u32, after: &BoundaryPiece) -> Option<bool> {
         if site == after.site {
-            return (!after.begins).then_some(false);
+            return (!after.begins()).then_some(false);
         }
-        let there = &self.sites[after.site as usize];
-        let joined = self.sites[site as usize].next == after.site && after.from == there.start;
-        (joined && after.begins).then_some(true)
+        let is_next = self.sites[site as usize].next == after.site;
+        (is_next && after.begins()).then_some(true)
     }
 
     fn check_topology(&self) -> Result<(), Mismatch> {

@@ -100,7 +100,7 @@ impl Circuit {
         };
         let mut starts: Vec<_> = (0u32..).zip(firsts.into_iter().map(start)).collect();
         // What is near is near in memory.
-        starts.sort_by_cached_key(|&(_, [start, _])| hilbert(graph.pieces[start as usize].from.point));
+        starts.sort_by_cached_key(|&(_, [start, _])| hilbert(graph.from(sites, start).point));
         // The way along a ring leads to and fro; nothing else waits for it.
         let mut order = Vec::new();
         for (number, [start, disk]) in starts {
@@ -142,7 +142,7 @@ impl Circuit {
             near.clear();
             near.extend(order.iter().map(|&at| graph.pieces[at as usize]));
             for (&at, piece) in order.iter().zip(&near) {
-                let (from, site) = (piece.from, piece.site);
+                let (from, site) = (graph.from(sites, at), piece.site);
                 let turns = || from.normal.angle_to(graph.piece(sites, at).to.normal);
                 let turn = if sites[site as usize].is_straight() { 0.0 } else { turns() };
                 let edge = graph.edges.get(piece.edge as usize);

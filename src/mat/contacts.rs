@@ -8,60 +8,65 @@ use crate::geom::Point;
 /// Where a joint disk touches a site.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ContactItem {
-    pub site: u32,
     pub position: f64,
-    pub foot: Foot,
+    pub site: u32,
     pub joint: u32,
 }
 
-/// The contacts of all joint disks.
-pub(super) fn contacts(sites: &[Site], shots: &[Shot]) -> Vec<ContactItem> {
-    let mut out = Vec::with_capacity(sites.len());
-    for (joint, shot) in (0u32..).zip(shots) {
-        if shot.site == NONE {
-            continue;
+/// The contacts of all joint disks, in the order of joints, and their feet beside them: those stay in the axis.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Contacts {
+    pub items: Vec<ContactItem>,
+    pub feet: Vec<Foot>,
+}
+
+impl Contacts {
+    pub fn of(sites: &[Site], shots: &[Shot]) -> Contacts {
+        let (items, feet) = (Vec::with_capacity(sites.len()), Vec::with_capacity(sites.len()));
+        let mut all = Contacts { items, feet };
+        for (joint, shot) in (0u32..).zip(shots) {
+            if shot.site == NONE {
+                continue;
+            }
+            if shot.contact == Contact::Whole {
+                whole_arc_contacts(sites, joint, shot).for_each(|contact| all.push(contact));
+                continue;
+            }
+            let end = &sites[joint as usize].end;
+            let center = end.point + end.normal * shot.radius;
+            all.push(contact_at(sites, joint, shot, center));
         }
-        if shot.contact == Contact::Whole {
-            out.extend(whole_arc_contacts(sites, joint, shot));
-            continue;
-        }
-        let end = &sites[joint as usize].end;
-        let center = end.point + end.normal * shot.radius;
-        out.push(contact_at(sites, joint, shot, center));
+        all
     }
-    out
+
+    fn push(&mut self, (item, foot): (ContactItem, Foot)) {
+        self.items.push(item);
+        self.feet.push(foot);
+    }
 }
 
 /// A disk that osculates an arc touches it at the far end too: that end is its contact. At a joint
 /// of two parts of one arc it touches both parts.
-fn whole_arc_contacts(sites: &[Site], joint: u32, shot: &Shot) -> impl Iterator<Item = ContactItem> {
+fn whole_arc_contacts(sites: &[Site], joint: u32, shot: &Shot) -> impl Iterator<Item = (ContactItem, Foot)> {
     let before = &sites[joint as usize];
     let both = before.joint == Joint::Smooth { same_circle: true };
-    let far_start = (both || shot.site == joint).then_some(ContactItem {
-        site: joint,
-        position: 0.0,
-        foot: before.start,
-        joint,
-    });
+    let at_start = ContactItem { position: 0.0, site: joint, joint };
+    let far_start = (both || shot.site == joint).then_some((at_start, before.start));
     let after = &sites[before.next as usize];
-    let far_end = (both || shot.site != joint).then_some(ContactItem {
-        site: before.next,
-        position: 1.0,
-        foot: after.end,
-        joint,
-    });
+    let at_end = ContactItem { position: 1.0, site: before.next, joint };
+    let far_end = (both || shot.site != joint).then_some((at_end, after.end));
     far_start.into_iter().chain(far_end)
 }
 
 /// The contact of a disk with the site that its shot names, or with the reflex vertex there.
-fn contact_at(sites: &[Site], joint: u32, shot: &Shot, center: Point) -> ContactItem {
+fn contact_at(sites: &[Site], joint: u32, shot: &Shot, center: Point) -> (ContactItem, Foot) {
     let mut id = shot.site;
     let mut site = &sites[id as usize];
     match shot.contact {
         Contact::Start if sites[site.prev as usize].is_vertex => id = site.prev,
         Contact::End if sites[site.next as usize].is_vertex => id = site.next,
-        Contact::Start => return ContactItem { site: id, position: 0.0, foot: site.start, joint },
-        Contact::End => return ContactItem { site: id, position: 1.0, foot: site.end, joint },
+        Contact::Start => return (ContactItem { position: 0.0, site: id, joint }, site.start),
+        Contact::End => return (ContactItem { position: 1.0, site: id, joint }, site.end),
         Contact::Inside | Contact::Whole => {}
     }
     site = &sites[id as usize];
@@ -70,7 +75,7 @@ fn contact_at(sites: &[Site], joint: u32, shot: &Shot, center: Point) -> Contact
         site = &sites[id as usize];
     }
     let foot = foot_of(site, center, &site.start, &site.end);
-    ContactItem { site: id, position: site.position(&foot), foot, joint }
+    (ContactItem { position: site.position(&foot), site: id, joint }, foot)
 }
 
 /// The part of a reflex vertex's cone that holds the normal to a center.

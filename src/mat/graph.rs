@@ -10,18 +10,17 @@ use super::track::Track;
 use super::union::Sets;
 use rayon::prelude::*;
 
-/// Where a piece begins, with its place on the boundary and in the axis. It ends where the next one on its site
-/// begins, or with the site: see [`Graph::piece`].
+/// A piece with its place on the boundary and in the axis. It ends where the next one on its site begins, or with the
+/// site: see [`Graph::piece`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BoundaryPiece {
-    pub from: Foot,
+    /// Where it begins, one of [`Graph::feet`]; [`NONE`] for the beginning of its site.
+    pub foot: u32,
     pub site: u32,
     /// The piece that follows on the boundary; [`NONE`] for what is no piece, the way over a link.
     pub next: u32,
     /// The edge on its left, [`NONE`] along the contact arc of a leaf.
     pub edge: u32,
-    /// Whether it begins where its site does.
-    pub begins: bool,
     /// Whether the axis beside it is left out.
     pub left_out: bool,
 }
@@ -40,6 +39,8 @@ pub(crate) struct GraphEdge {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Graph {
     pub disks: Vec<UnitDisk>,
+    /// Where disks touch sites between their ends.
+    pub feet: Vec<Foot>,
     pub pieces: Vec<BoundaryPiece>,
     pub edges: Vec<GraphEdge>,
     /// Round-off of a disk, in the unit frame: closer disks are one, closer radii equal.
@@ -50,12 +51,20 @@ pub(crate) struct Graph {
 /// the round-off of a drawn coordinate that is the distance within which disks are one and radii equal.
 pub(super) const DISK_ROUNDINGS: f64 = 32.0;
 
+impl BoundaryPiece {
+    /// Whether it begins where its site does.
+    #[inline]
+    pub fn begins(&self) -> bool {
+        self.foot == NONE
+    }
+}
+
 impl Graph {
     /// The graph of a lamination: all faces solved, or those with a free site.
     pub(super) fn of(sites: &[Site], mut map: Lamination, free: Option<&[bool]>, error: f64) -> Graph {
         let mut graph = Graph { disks: std::mem::take(&mut map.disks), error, ..Graph::default() };
         graph.pieces = map.pieces(sites);
-        map.forget_contacts();
+        graph.feet = map.take_feet();
         let faces = graph.faces_of(&map, free);
         // What follows needs the faces alone.
         drop(map);
@@ -63,17 +72,30 @@ impl Graph {
         graph
     }
 
+    /// Where a piece begins.
+    #[inline]
+    pub fn from(&self, sites: &[Site], id: u32) -> Foot {
+        self.beginning(sites, &self.pieces[id as usize])
+    }
+
+    #[inline]
+    fn beginning(&self, sites: &[Site], piece: &BoundaryPiece) -> Foot {
+        if piece.begins() { sites[piece.site as usize].start } else { self.feet[piece.foot as usize] }
+    }
+
     /// A piece with both of its ends.
     #[inline]
     pub fn piece(&self, sites: &[Site], id: u32) -> Piece {
-        let BoundaryPiece { from, site, next, begins, .. } = self.pieces[id as usize];
+        let piece = &self.pieces[id as usize];
+        let BoundaryPiece { site, next, .. } = *piece;
         let whole = &sites[site as usize];
         let cut = cut_vertex(whole);
-        let v0 = if begins { whole.vertices[0] } else { cut };
+        let v0 = if piece.begins() { whole.vertices[0] } else { cut };
         let (to, v1) = match self.pieces.get(next as usize) {
-            Some(after) if after.site == site => (after.from, cut),
+            Some(after) if after.site == site => (self.beginning(sites, after), cut),
             _ => (whole.end, whole.vertices[1]),
         };
+        let from = self.beginning(sites, piece);
         Piece { site, from, to, vertices: [v0, v1] }
     }
 
@@ -117,24 +139,20 @@ impl Graph {
         numbers
     }
 
-    /// Makes room for so many more.
-    pub(super) fn reserve(&mut self, [disks, pieces, edges]: [usize; 3]) {
+    /// Makes room for so many more disks, cuts of pieces, and edges.
+    pub(super) fn reserve(&mut self, [disks, cuts, edges]: [usize; 3]) {
         self.disks.reserve_exact(disks);
-        self.pieces.reserve_exact(pieces);
+        self.feet.reserve_exact(cuts);
+        self.pieces.reserve_exact(cuts);
         self.edges.reserve_exact(edges);
     }
 
     /// Adds rests of pieces that follow on none yet and have no edge.
     pub(super) fn add_rests(&mut self, rests: &[Piece]) {
-        let rest = |&Piece { from, site, .. }: &Piece| BoundaryPiece {
-            from,
-            site,
-            next: NONE,
-            edge: NONE,
-            begins: false,
-            left_out: false,
-        };
-        self.pieces.extend(rests.iter().map(rest));
+        for &Piece { from, site, .. } in rests {
+            let foot = self.add_foot(from);
+            self.pieces.push(BoundaryPiece { foot, site, next: NONE, edge: NONE, left_out: false });
+        }
     }
 
     /// Lets a rest follow on the piece that it was cut from.
@@ -146,6 +164,7 @@ impl Graph {
     /// Gives back what is reserved for more.
     pub(super) fn shrink(&mut self) {
         self.disks.shrink_to_fit();
+        self.feet.shrink_to_fit();
         self.pieces.shrink_to_fit();
         self.edges.shrink_to_fit();
     }
@@ -162,6 +181,11 @@ impl Graph {
         self.disks.len() as u32 - 1
     }
 
+    fn add_foot(&mut self, foot: Foot) -> u32 {
+        self.feet.push(foot);
+        self.feet.len() as u32 - 1
+    }
+
     pub(super) fn add_edge(&mut self, pieces: [u32; 2], disks: [u32; 2]) {
         let id = self.edges.len() as u32;
         for p in pieces {
@@ -173,7 +197,8 @@ impl Graph {
     /// Cuts a piece at a foot; the id stays with the first part, that of the rest is returned.
     pub(super) fn cut(&mut self, id: u32, foot: Foot) -> u32 {
         let rest_id = self.pieces.len() as u32;
-        self.pieces.push(BoundaryPiece { from: foot, begins: false, ..self.pieces[id as usize] });
+        let foot = self.add_foot(foot);
+        self.pieces.push(BoundaryPiece { foot, ..self.pieces[id as usize] });
         self.follow(id, rest_id);
         rest_id
     }
@@ -183,7 +208,7 @@ impl Graph {
     /// Ties leave such edges between disks that differ by round-off only. Edges are contracted one
     /// by one while their ends are different vertices, so V - E stays what it is.
     pub(super) fn contract(&mut self) {
-        let Graph { disks, pieces, edges, error } = self;
+        let Graph { disks, pieces, edges, error, .. } = self;
         let mut same = Sets::singles(disks.len());
         edges.retain(|edge| {
             // The older disk stays for both: it comes from a joint, not from an intersection.

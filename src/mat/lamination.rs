@@ -19,13 +19,12 @@
 
 use super::apart::set_apart;
 use super::check::Doubt;
-use super::contacts::{ContactItem, Order, contacts};
+use super::contacts::{ContactItem, Contacts, Order};
 use super::face::Slot;
 use super::graph::BoundaryPiece;
 use super::piece::UnitDisk;
 use super::shot::Shot;
-use super::site::NONE;
-use super::site::Site;
+use super::site::{Foot, NONE, Site};
 use super::sites::Sites;
 use super::union::Sets;
 use crate::geom::Point;
@@ -53,7 +52,7 @@ pub(super) struct Lamination {
     /// Rows of visits, one for each connected component of the cut pocket.
     pub rows: Vec<std::ops::Range<u32>>,
     pub disks: Vec<UnitDisk>,
-    contacts: Vec<ContactItem>,
+    contacts: Contacts,
     /// Greatest distance of disks that were united, and the center of one of the two.
     pub widest_union: (f64, Point),
 }
@@ -61,9 +60,9 @@ pub(super) struct Lamination {
 impl Lamination {
     /// The map of the shots; `None` when the links do not reach every ring.
     pub fn of(all: &Sites, shots: &[Shot], doubt: Doubt) -> Option<Lamination> {
-        let contacts = contacts(&all.sites, shots);
+        let contacts = Contacts::of(&all.sites, shots);
         let (mut map, mut crossings) = Lamination::with(all, shots, contacts, doubt)?;
-        let mut contacts = if crossings.is_empty() { Vec::new() } else { map.contacts.clone() };
+        let mut contacts = if crossings.is_empty() { Contacts::default() } else { map.contacts.clone() };
         for _ in 0..ROUNDS {
             if !set_apart((&all.sites, shots), &mut contacts, &crossings, doubt.feet) {
                 break;
@@ -81,11 +80,10 @@ impl Lamination {
     fn with(
         all: &Sites,
         shots: &[Shot],
-        contacts: Vec<ContactItem>,
+        contacts: Contacts,
         doubt: Doubt,
     ) -> Option<(Lamination, Vec<[u32; 2]>)> {
-        let order = Order::of(&all.sites, &contacts);
-        let (visits, rows) = walk(all, &order, &contacts)?;
+        let (visits, rows) = walk(all, &Order::of(&all.sites, &contacts.items), &contacts.items)?;
         let disks = Vec::new();
         let mut map = Lamination { visits, rows, disks, contacts, widest_union: (0.0, Point::default()) };
         let crossings = map.close(all, shots, doubt.disks)?;
@@ -179,7 +177,8 @@ impl Lamination {
             open: vec![false; n as usize],
             joint: (0..n).collect(),
         };
-        let joints: Vec<u32> = self.visits.iter().map(|v| joint_of(&self.contacts, v.item, n)).collect();
+        let joints: Vec<u32> =
+            self.visits.iter().map(|v| joint_of(&self.contacts.items, v.item, n)).collect();
         for (v, &joint) in self.visits.iter().zip(&joints) {
             blocks.ahead[joint as usize] += u32::from(v.partner == NONE);
         }
@@ -312,28 +311,27 @@ impl Lamination {
 
     /// The site that an item lies on.
     fn site_of(&self, item: u32, sites: &[Site]) -> u32 {
-        item.checked_sub(sites.len() as u32).map_or(item, |c| self.contacts[c as usize].site)
+        item.checked_sub(sites.len() as u32).map_or(item, |c| self.contacts.items[c as usize].site)
     }
 
-    /// Gives back what only pieces are made of.
-    pub fn forget_contacts(&mut self) {
-        self.contacts = Vec::new();
+    /// Hands over the feet of all contacts, and gives back what only pieces are made of.
+    pub fn take_feet(&mut self) -> Vec<Foot> {
+        std::mem::take(&mut self.contacts).feet
     }
 
     /// The piece that ends at an item and begins at the visit before, with none that follows.
     fn piece(&self, sites: &[Site], item: u32, before: u32) -> BoundaryPiece {
         let n = sites.len() as u32;
         let site = self.site_of(item, sites);
-        let contact = self.visits[before as usize].item.checked_sub(n);
-        let from = contact.map_or(sites[site as usize].start, |c| self.contacts[c as usize].foot);
-        BoundaryPiece { from, site, next: NONE, edge: NONE, begins: contact.is_none(), left_out: false }
+        let foot = self.visits[before as usize].item.checked_sub(n).unwrap_or(NONE);
+        BoundaryPiece { foot, site, next: NONE, edge: NONE, left_out: false }
     }
 
     /// For every item, the visit whose piece follows on the boundary.
     fn leaves(&self, sites: &[Site]) -> Vec<u32> {
         // A piece leaves an item at the visit after which the row goes on along the boundary: the
         // last of the item's visits that is not followed by a crossing.
-        let mut leaves = vec![NONE; sites.len() + self.contacts.len()];
+        let mut leaves = vec![NONE; sites.len() + self.contacts.items.len()];
         for row in &self.rows {
             for i in row.clone() {
                 let after = if i + 1 == row.end { row.start } else { i + 1 };

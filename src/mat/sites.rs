@@ -60,6 +60,7 @@ impl Sites {
             let hole = is_hole(&row, pocket);
             let mut parts: Vec<Part> = Vec::with_capacity(row.len() + row.len() / 4);
             runs(&row, whole, frame.noise).iter().for_each(|run| add_parts(run, whole, &mut parts));
+            drop(row);
             let lent = lend_directions(&mut parts, frame.noise);
             all.blur = all.blur.max(lent).max(share_normals(&mut parts, frame.noise));
             if hole {

@@ -22,13 +22,16 @@ pub(super) struct Drawn {
     pub index: u32,
 }
 
-/// The elements of the loops, as loops that go on by sectors.
-pub(super) fn splice<'a>(loops: impl Iterator<Item = &'a ArcSpline>, frame: &Frame) -> Vec<Vec<Drawn>> {
+/// The elements of the loops, as loops that go on by sectors, one after the other.
+pub(super) fn splice<'a>(
+    loops: impl Iterator<Item = &'a ArcSpline>,
+    frame: &Frame,
+) -> impl Iterator<Item = Vec<Drawn>> {
     let Row { elements, mut next, prev } = Row::of(loops, frame);
     for touching in touching_vertices(&elements) {
         turn_into_sectors(&elements, &touching, &prev, &mut next, frame.noise);
     }
-    follow(&elements, &next)
+    follow(elements, next)
 }
 
 /// All elements in one row, with their neighbors on their own loops.
@@ -164,10 +167,9 @@ fn sort_bundle(rays: &mut [Ray]) {
 }
 
 /// The closed loops that `next` describes, in the order of their first elements.
-fn follow(elements: &[Drawn], next: &[usize]) -> Vec<Vec<Drawn>> {
+fn follow(elements: Vec<Drawn>, next: Vec<usize>) -> impl Iterator<Item = Vec<Drawn>> {
     let mut seen = vec![false; elements.len()];
-    let mut loops = Vec::new();
-    for first in 0..elements.len() {
+    (0..elements.len()).filter_map(move |first| {
         let mut row = Vec::new();
         let mut at = first;
         while !seen[at] {
@@ -175,9 +177,6 @@ fn follow(elements: &[Drawn], next: &[usize]) -> Vec<Vec<Drawn>> {
             row.push(elements[at]);
             at = next[at];
         }
-        if !row.is_empty() {
-            loops.push(row);
-        }
-    }
-    loops
+        (!row.is_empty()).then_some(row)
+    })
 }

@@ -55,8 +55,8 @@ impl<'a> Roads<'a> {
             }
         }
         let pieces = (0..).zip(&mat.graph.pieces).filter(|(_, p)| p.next != NONE);
-        let mut by_site: Vec<_> =
-            pieces.map(|(id, p)| (p.site, mat.sites[p.site as usize].position(&p.from), id)).collect();
+        let position = |site: u32, id| mat.sites[site as usize].position(&mat.graph.from(&mat.sites, id));
+        let mut by_site: Vec<_> = pieces.map(|(id, p)| (p.site, position(p.site, id), id)).collect();
         by_site.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
         Roads { mat, edges, vertices, first, incident, by_site }
     }

@@ -114,7 +114,8 @@ impl Concatenation {
             dead.iter().map(number).collect::<Vec<u32>>()
         };
         let [disk_number, piece_number] = [&self.dead_disks, &self.dead_pieces].map(|dead| numbers(dead));
-        let mut graph = Graph { error: self.graph.error, ..Graph::default() };
+        let Graph { feet, error, .. } = &self.graph;
+        let mut graph = Graph { feet: feet.clone(), error: *error, ..Graph::default() };
         let alive = |dead: &[bool], i: usize| !dead[i];
         let disks = self.graph.disks.iter().enumerate().filter(|(i, _)| alive(&self.dead_disks, *i));
         graph.disks = disks.map(|(_, d)| *d).collect();

@@ -60,8 +60,7 @@ impl<'a> Division<'a> {
     fn of(all: &'a Sites, error: f64) -> Division<'a> {
         let mut graph = Graph { error, ..Graph::default() };
         for (id, site) in (0u32..).zip(&all.sites) {
-            let (from, next) = (site.start, site.next);
-            let whole = BoundaryPiece { from, site: id, next, edge: NONE, begins: true, left_out: false };
+            let whole = BoundaryPiece { foot: NONE, site: id, next: site.next, edge: NONE, left_out: false };
             graph.pieces.push(whole);
         }
         let mut corners = HashMap::new();

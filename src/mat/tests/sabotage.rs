@@ -133,12 +133,13 @@ fn what_is_off_by_less_than_the_wish_is_right() {
 #[test]
 fn a_foot_moved_along_the_boundary_is_seen() {
     each_is_seen(
-        |mat| mat.graph.pieces.len(),
+        |mat| mat.graph.feet.len(),
         |mat, way| {
             let step = HARM * size(mat);
-            let piece = &mut mat.graph.pieces[way];
-            piece.from.point += piece.from.normal.right() * step;
-            piece.next != NONE && !mat.sites[piece.site as usize].is_vertex
+            let foot = &mut mat.graph.feet[way];
+            foot.point += foot.normal.right() * step;
+            let piece = mat.graph.pieces.iter().find(|p| p.foot == way as u32);
+            piece.is_some_and(|p| p.next != NONE && !mat.sites[p.site as usize].is_vertex)
         },
     );
 }
