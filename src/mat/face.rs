@@ -256,6 +256,9 @@ pub(super) fn spread(feet: [Foot; 3]) -> f64 {
     (n1 - n0).cross(n2 - n0).abs()
 }
 
+/// Round-off of the quotient of difference and sum of two radii: four roundings.
+const EQUAL: f64 = 4.0 * f64::EPSILON;
+
 /// Parameter beyond `from` where the disks to both pieces are equal: at `from` the one to `before` is
 /// smaller, at the end the one to `after`.
 pub(super) fn equal_reach(
@@ -279,6 +282,7 @@ pub(super) fn equal_reach(
                 match [is_corner(sites, after, at_a, before), is_corner(sites, before, at_b, after)] {
                     [true, false] => RADIUS_ERROR,
                     [false, true] => -RADIUS_ERROR,
+                    _ if difference.abs() <= EQUAL => 0.0,
                     _ => difference,
                 }
             }

@@ -281,7 +281,8 @@ impl Graph {
                 return 0.0;
             }
             let opposite = foot_of(there, probe.center(radius), &across.from, &across.to);
-            sign * opposite.normal.cross(probe.normal)
+            let sine = opposite.normal.cross(probe.normal);
+            if (sine * radius).abs() <= NORMAL_ERROR { 0.0 } else { sign * sine }
         });
         let probe = track.at(t);
         let (radius, _) = track.reach(sites, across, &probe);
