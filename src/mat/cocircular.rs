@@ -36,19 +36,17 @@ impl Run {
 /// as much as its places, which is a digit there, and more for less.
 const ENOUGH: f64 = FRAC_PI_4 * (1.0 - 8.0 * f64::EPSILON);
 
-/// The elements of a row in runs. Those of more than one sweep as much as an arc of the bulge `whole` at most.
-pub(super) fn runs(row: &[Drawn], whole: f64, noise: f64) -> Vec<Run> {
+/// Shows the elements of a row in runs. Those of more than one sweep as much as an arc of the bulge `whole` at most.
+pub(super) fn each_run(row: &[Drawn], whole: f64, noise: f64, mut show: impl FnMut(Run)) {
     // A place of the run is off by that much, and so is the arc through three of its places.
     let unite = Unite { noise, off: 2.0 * TOUCHING_ULPS * noise, farthest: 4.0 * whole.atan() };
-    let mut runs = Vec::with_capacity(row.len());
     let mut first = 0;
     for end in 1..=row.len() {
         if end == row.len() || !unite.goes_on(&row[end - 1], &row[end]) {
-            unite.add(&row[first..end], &mut runs);
+            unite.show(&row[first..end], &mut show);
             first = end;
         }
     }
-    runs
 }
 
 struct Unite {
@@ -75,18 +73,20 @@ impl Unite {
         apart <= 4.0 * self.off && shorter > sliver * sliver
     }
 
-    /// Adds elements as one arc, or in halves where they do not lie on one or turn too far for one.
-    fn add(&self, run: &[Drawn], runs: &mut Vec<Run>) {
-        let sweep = || run.iter().map(|d| d.element.sweep().abs()).sum::<f64>();
-        let sweep = if run.len() > 1 { sweep() } else { 0.0 };
+    /// Shows elements as one arc, or in halves where they do not lie on one or turn too far for one.
+    fn show(&self, run: &[Drawn], show: &mut impl FnMut(Run)) {
+        if let &[one] = run {
+            return show(Run::single(one));
+        }
+        let sweep = run.iter().map(|d| d.element.sweep().abs()).sum::<f64>();
         if sweep < ENOUGH || !run.windows(2).any(|w| self.is_corner(&w[0].element, &w[1].element)) {
-            runs.extend(run.iter().map(|&one| Run::single(one)));
+            run.iter().for_each(|&one| show(Run::single(one)));
         } else if let Some(united) = self.one_arc(run, sweep) {
-            runs.push(united);
+            show(united);
         } else {
             let (before, after) = run.split_at(run.len() / 2);
-            self.add(before, runs);
-            self.add(after, runs);
+            self.show(before, show);
+            self.show(after, show);
         }
     }
 
@@ -130,6 +130,12 @@ mod tests {
     const NOISE: f64 = f64::EPSILON;
     const QUARTER: f64 = 0.42;
 
+    fn runs(row: &[Drawn]) -> Vec<Run> {
+        let mut runs = Vec::new();
+        each_run(row, QUARTER, NOISE, |run| runs.push(run));
+        runs
+    }
+
     /// A circle in so many arcs, every place of it moved outward by what `off` says of its number.
     fn circle(count: usize, off: impl Fn(usize) -> f64) -> Vec<Drawn> {
         let place = |i: usize| {
@@ -145,7 +151,7 @@ mod tests {
     #[test]
     fn a_circle_in_many_arcs_is_one_in_quarters() {
         let row = circle(200, |i| [0.0, 30.0, -30.0][i % 3] * NOISE);
-        let runs = runs(&row, QUARTER, NOISE);
+        let runs = runs(&row);
         assert_eq!(runs.len(), 4);
         let sweep: f64 = runs.iter().map(|run| run.drawn.element.sweep()).sum();
         assert!((sweep - 2.0 * PI).abs() < 1e-12);
@@ -155,15 +161,15 @@ mod tests {
 
     #[test]
     fn arcs_that_can_be_told_apart_stay_and_so_do_smooth_ones() {
-        assert_eq!(runs(&circle(200, |i| [0.0, 1e-12][i % 2]), QUARTER, NOISE).len(), 200);
-        assert_eq!(runs(&circle(200, |_| 0.0), QUARTER, NOISE).len(), 200);
-        assert_eq!(runs(&circle(4, |i| [30.0, -30.0][i % 2] * NOISE), QUARTER, NOISE).len(), 4);
+        assert_eq!(runs(&circle(200, |i| [0.0, 1e-12][i % 2])).len(), 200);
+        assert_eq!(runs(&circle(200, |_| 0.0)).len(), 200);
+        assert_eq!(runs(&circle(4, |i| [30.0, -30.0][i % 2] * NOISE)).len(), 4);
     }
 
     #[test]
     fn one_place_that_is_off_divides_a_run() {
         let off = |i| if i == 5 { 1e-10 } else { [30.0, -30.0][i % 2] * NOISE };
-        let runs = runs(&circle(64, off), QUARTER, NOISE);
+        let runs = runs(&circle(64, off));
         let is_alone = |index| runs.iter().any(|r| r.drawn.index == index && r.turned == 0.0);
         assert!(is_alone(4) && is_alone(5) && runs.len() < 32, "{}", runs.len());
     }
@@ -172,7 +178,7 @@ mod tests {
     fn loops_that_touch_are_not_united_across_the_place() {
         let mut row = circle(16, |i| [30.0, -30.0][i % 2] * NOISE);
         row[7..].iter_mut().for_each(|d| d.loop_index = 1);
-        let runs = runs(&row, QUARTER, NOISE);
+        let runs = runs(&row);
         assert!(runs.len() < 16 && runs.iter().any(|run| run.drawn.index == 7));
     }
 }

@@ -5,7 +5,7 @@
 //! lies beyond the hole and links it to a component that reaches farther in that direction, so that
 //! these links form a tree (design after Aichholzer et al., SoCG 2009, with a shot for their sweep).
 
-use super::cocircular::{Run, runs};
+use super::cocircular::{Run, each_run};
 use super::frame::Frame;
 use super::site::{Foot, Joint, NONE, Site};
 use super::splice::{Drawn, TANGENT_ROUNDINGS, same_places, splice};
@@ -48,7 +48,7 @@ impl Sites {
     /// The sites in the unit frame, holes with a joint at their extreme place in `direction`.
     pub fn of(pocket: &Pocket, frame: &Frame, direction: Vector) -> Sites {
         let mut all = Sites {
-            sites: Vec::new(),
+            sites: Vec::with_capacity(pocket.loops().map(|l| l.len()).sum()),
             rings: Vec::new(),
             touching: HashMap::new(),
             noise: frame.noise,
@@ -59,7 +59,7 @@ impl Sites {
         for row in splice(pocket.loops(), frame) {
             let hole = is_hole(&row, pocket);
             let mut parts: Vec<Part> = Vec::with_capacity(row.len() + row.len() / 4);
-            runs(&row, whole, frame.noise).iter().for_each(|run| add_parts(run, whole, &mut parts));
+            each_run(&row, whole, frame.noise, |run| add_parts(&run, whole, &mut parts));
             drop(row);
             let lent = lend_directions(&mut parts, frame.noise);
             all.blur = all.blur.max(lent).max(share_normals(&mut parts, frame.noise));

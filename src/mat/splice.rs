@@ -11,8 +11,6 @@
 use super::frame::Frame;
 use crate::boundary::TOUCHING_ULPS;
 use crate::geom::{ArcSpline, Element, Point, Vector};
-use std::collections::HashSet;
-use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// A drawn element in the unit frame.
 #[derive(Clone, Copy, Debug)]
@@ -37,8 +35,8 @@ pub(super) fn splice<'a>(
 /// All elements in one row, with their neighbors on their own loops.
 struct Row {
     elements: Vec<Drawn>,
-    next: Vec<usize>,
-    prev: Vec<usize>,
+    next: Vec<u32>,
+    prev: Vec<u32>,
 }
 
 impl Row {
@@ -46,13 +44,15 @@ impl Row {
         let mut row = Row { elements: Vec::new(), next: Vec::new(), prev: Vec::new() };
         for (loop_index, spline) in loops.enumerate() {
             let (first, count) = (row.elements.len(), spline.len());
+            row.elements.reserve(count);
             for (index, e) in spline.elements().enumerate() {
                 let element =
                     Element { start: frame.enter(e.start), end: frame.enter(e.end), bulge: e.bulge };
                 row.elements.push(Drawn { element, loop_index: loop_index as u32, index: index as u32 });
-                row.next.push(first + (index + 1) % count);
-                row.prev.push(first + (index + count - 1) % count);
             }
+            let on_loop = |index: usize| (first + index) as u32;
+            row.next.extend((1..count).chain([0]).map(on_loop));
+            row.prev.extend([count - 1].into_iter().chain(0..count - 1).map(on_loop));
         }
         row
     }
@@ -63,16 +63,25 @@ fn touching_vertices(elements: &[Drawn]) -> Vec<Vec<u32>> {
     same_places((0u32..).zip(elements.iter().map(|drawn| drawn.element.start)))
 }
 
+/// Cells to a place: an eighth of all places shares one with another by chance.
+const CELLS: usize = 8;
+
+/// Bits of a word.
+const WORD: usize = u64::BITS as usize;
+
 /// Numbers whose places are equal to the last bit, those of each place in order.
 pub(super) fn same_places(places: impl Iterator<Item = (u32, Point)> + Clone) -> Vec<Vec<u32>> {
-    // Hash and number in one word, which sorts ten times as fast as places do.
-    let mut order: Vec<u64> =
-        places.clone().map(|(i, p)| hash(place_key(p)) & !u64::from(u32::MAX) | u64::from(i)).collect();
-    order.sort_unstable();
-    let of_one_hash = order.chunk_by(|a, b| a >> 32 == b >> 32).filter(|group| group.len() > 1);
-    let alike: HashSet<u32> = of_one_hash.flatten().map(|&word| word as u32).collect();
+    // Few places share a cell, and only those are sorted.
+    let cells = (CELLS * places.clone().count()).next_power_of_two().max(WORD);
+    let cell = |p: Point| hash(place_key(p)) as usize & (cells - 1);
+    let [mut taken, mut shared] = [vec![0u64; cells / WORD], vec![0u64; cells / WORD]];
+    for (at, bit) in places.clone().map(|(_, p)| (cell(p) / WORD, 1 << (cell(p) % WORD))) {
+        shared[at] |= taken[at] & bit;
+        taken[at] |= bit;
+    }
+    let is_shared = |cell: usize| shared[cell / WORD] >> (cell % WORD) & 1 == 1;
     let mut found: Vec<([u64; 2], u32)> =
-        places.filter(|(i, _)| alike.contains(i)).map(|(i, p)| (place_key(p), i)).collect();
+        places.filter(|&(_, p)| is_shared(cell(p))).map(|(i, p)| (place_key(p), i)).collect();
     found.sort_unstable();
     let groups = found.chunk_by(|a, b| a.0 == b.0).filter(|group| group.len() > 1);
     groups.map(|group| group.iter().map(|&(_, i)| i).collect()).collect()
@@ -83,11 +92,11 @@ fn place_key(p: Point) -> [u64; 2] {
     [(p.x + 0.0).to_bits(), (p.y + 0.0).to_bits()]
 }
 
-/// Bits that tell nearly all places apart; no order is taken from them.
-fn hash(key: [u64; 2]) -> u64 {
-    let mut hasher = DefaultHasher::new();
-    key.hash(&mut hasher);
-    hasher.finish()
+/// Bits that tell nearly all places apart; no order is taken from them. Both halves of a product depend on all bits
+/// of its factors; the odd numbers are the golden ratio and the root of two.
+fn hash([x, y]: [u64; 2]) -> u64 {
+    let product = u128::from(x ^ 0x9E37_79B9_7F4A_7C15) * u128::from(y ^ 0xB504_F333_F9DE_6485);
+    (product >> 64) as u64 ^ product as u64
 }
 
 /// One end of an element at a touching point.
@@ -99,27 +108,28 @@ struct Ray {
     curvature: f64,
     /// Length of the chord.
     length: f64,
-    element: usize,
+    element: u32,
     arrives: bool,
 }
 
 /// Makes every element that arrives at the touching point go on by the next one clockwise.
-fn turn_into_sectors(elements: &[Drawn], starting: &[u32], prev: &[usize], next: &mut [usize], noise: f64) {
+fn turn_into_sectors(elements: &[Drawn], starting: &[u32], prev: &[u32], next: &mut [u32], noise: f64) {
     let mut rays = Vec::with_capacity(2 * starting.len());
-    for out in starting.iter().map(|&out| out as usize) {
-        rays.push(ray(&elements[out].element, out, false));
-        rays.push(ray(&elements[prev[out]].element.reversed(), prev[out], true));
+    for &out in starting {
+        let before = prev[out as usize];
+        rays.push(ray(&elements[out as usize].element, out, false));
+        rays.push(ray(&elements[before as usize].element.reversed(), before, true));
     }
     sort_clockwise(&mut rays, noise);
     let n = rays.len();
-    let sectors: Vec<(usize, usize)> = (0..n)
+    let sectors: Vec<(u32, u32)> = (0..n)
         .filter(|&i| rays[i].arrives && !rays[(i + 1) % n].arrives)
         .map(|i| (rays[i].element, rays[(i + 1) % n].element))
         .collect();
     // Anything but an alternation of arriving and leaving would be a crossing: leave it alone then.
     if sectors.len() == starting.len() {
         for (arriving, leaving) in sectors {
-            next[arriving] = leaving;
+            next[arriving as usize] = leaving;
         }
     }
 }
@@ -128,7 +138,7 @@ fn turn_into_sectors(elements: &[Drawn], starting: &[u32], prev: &[usize], next:
 /// its unit vector and its turn by half the sweep.
 pub(super) const TANGENT_ROUNDINGS: f64 = 8.0;
 
-fn ray(away: &Element, element: usize, arrives: bool) -> Ray {
+fn ray(away: &Element, element: u32, arrives: bool) -> Ray {
     let (direction, length) = (away.tangents().0, away.chord().length());
     Ray { direction, angle: direction.angle(), curvature: away.curvature(), length, element, arrives }
 }
@@ -167,7 +177,7 @@ fn sort_bundle(rays: &mut [Ray]) {
 }
 
 /// The closed loops that `next` describes, in the order of their first elements.
-fn follow(elements: Vec<Drawn>, next: Vec<usize>) -> impl Iterator<Item = Vec<Drawn>> {
+fn follow(elements: Vec<Drawn>, next: Vec<u32>) -> impl Iterator<Item = Vec<Drawn>> {
     let mut seen = vec![false; elements.len()];
     (0..elements.len()).filter_map(move |first| {
         let mut row = Vec::new();
@@ -175,7 +185,7 @@ fn follow(elements: Vec<Drawn>, next: Vec<usize>) -> impl Iterator<Item = Vec<Dr
         while !seen[at] {
             seen[at] = true;
             row.push(elements[at]);
-            at = next[at];
+            at = next[at] as usize;
         }
         (!row.is_empty()).then_some(row)
     })
