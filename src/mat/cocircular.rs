@@ -9,8 +9,8 @@
 //! as good as its places. Runs without corners stay as they are drawn, and so does a circle in quarters: no
 //! site turns farther.
 
-use super::sites::sliver;
-use super::splice::{Drawn, TANGENT_ROUNDINGS};
+use super::joints::{angle_error, sliver};
+use super::splice::Drawn;
 use crate::boundary::TOUCHING_ULPS;
 use crate::geom::{Element, Point};
 use std::f64::consts::FRAC_PI_4;
@@ -92,8 +92,8 @@ impl Unite {
 
     /// Whether two elements meet at an angle that a few roundings do not explain.
     fn is_corner(&self, e: &Element, f: &Element) -> bool {
-        let known = 1.0 + e.chord().length().recip() + f.chord().length().recip();
-        e.normals().1.cross(f.normals().0).abs() > TANGENT_ROUNDINGS * self.noise * known
+        let tilts = [e, f].map(|e| e.chord().length().recip());
+        e.normals().1.cross(f.normals().0).abs() > angle_error(tilts, self.noise)
     }
 
     /// The arc that all elements of a run lie on, if there is one.
