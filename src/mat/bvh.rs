@@ -6,6 +6,7 @@
 //! curve: in a spiral of many turns boundary order would put whole turns into boxes that all overlap
 //! (28 microseconds per site at 100,000 sites on 780 turns).
 
+use super::hilbert::hilbert;
 use crate::geom::{Bounds, Point};
 use rayon::prelude::*;
 use wide::f32x8;
@@ -37,9 +38,6 @@ pub(crate) struct SearchDisk {
     pub center: Point,
     pub radius: f64,
 }
-
-/// Largest number of open nodes: seven siblings on each of the levels that `u32` leaves can fill.
-const STACK: usize = 80;
 
 impl Bvh {
     /// The hierarchy over some boxes, its leaves along a Hilbert curve.
@@ -92,17 +90,29 @@ impl Bvh {
     /// Calls `visit` for every leaf whose box meets the disk, near boxes first. Whenever `visit`
     /// answers with a disk, the search goes on with that one, which must lie in the last.
     #[inline]
-    pub fn search(&self, disk: SearchDisk, visit: impl FnMut(u32) -> Option<SearchDisk>) {
-        let all = |_, _| ALL;
+    pub fn search(&self, disk: SearchDisk, mut visit: impl FnMut(u32) -> Option<SearchDisk>) {
+        let (all, nearness) = (|_, _| ALL, |_: &Boxes, distances| distances);
         if self.order.is_empty() {
-            self.search_where(disk, all, visit);
+            self.search_where(disk, all, nearness, visit);
         } else {
-            let mut visit = visit;
-            self.search_where(disk, all, |at| visit(self.order[at as usize]));
+            self.search_where(disk, all, nearness, |at| visit(self.order[at as usize]));
         }
     }
 
-    /// The same for the leaves of a range.
+    /// The same of a sorted hierarchy, boxes near to a place first: for disks that shrink towards it.
+    #[inline]
+    pub fn search_around(
+        &self,
+        place: Point,
+        disk: SearchDisk,
+        mut visit: impl FnMut(u32) -> Option<SearchDisk>,
+    ) {
+        let place = Reach::of(&SearchDisk { center: place, radius: 0.0 });
+        let nearness = |boxes: &Boxes, _| boxes.squared_distances(&place);
+        self.search_where(disk, |_, _| ALL, nearness, |at| visit(self.order[at as usize]));
+    }
+
+    /// The same as [`Bvh::search`] for the leaves of a range.
     #[inline]
     pub fn search_range(
         &self,
@@ -111,58 +121,116 @@ impl Bvh {
         visit: impl FnMut(u32) -> Option<SearchDisk>,
     ) {
         if !range.is_empty() {
-            self.search_where(disk, |first, level| inside(&range, first, level), visit);
+            let children = |first, level| inside(&range, first, level);
+            self.search_where(disk, children, |_, distances| distances, visit);
         }
     }
 
-    /// The same for some children of each node, told by the number of the first one on its level: a bit for each.
+    /// The same for some children of each node, told by the number of the first one on its level: a bit for each;
+    /// those of the least `nearness` first, which may be the squared distances from the disk.
     #[inline]
     fn search_where(
         &self,
         disk: SearchDisk,
         children: impl Fn(usize, u32) -> u32,
+        nearness: impl Fn(&Boxes, f32x8) -> f32x8,
         mut visit: impl FnMut(u32) -> Option<SearchDisk>,
     ) {
         let mut reach = Reach::of(&disk);
-        let mut stack = [(0u32, 0u32); STACK];
-        stack[0] = (self.levels.len() as u32 - 1, 0);
-        let mut open = 1;
-        while open > 0 {
-            open -= 1;
-            let (level, index) = stack[open];
+        let mut path = Path { nodes: [OpenNode::NONE; LEVELS], depth: 0 };
+        let mut next = Some((self.levels.len() as u32 - 1, 0));
+        while let Some((level, index)) = next {
             let boxes = &self.levels[level as usize][index as usize];
             let distances = boxes.squared_distances(&reach);
             let first = index as usize * WIDTH;
-            let mut bits = distances.simd_le(f32x8::splat(reach.squared)).to_bitmask();
-            bits &= children(first, level);
-            if level == 0 {
+            let mut bits = reach.meets(distances) & children(first, level);
+            if level > 0 && bits != 0 {
+                let nearness = nearness(boxes, distances).to_array();
+                path.open(OpenNode { level, index, bits, tested: reach.squared, nearness });
+            } else {
+                // Above the leaves, none is left here.
                 while bits != 0 {
                     let j = bits.trailing_zeros();
                     bits &= bits - 1;
                     if let Some(smaller) = visit(first as u32 + j) {
                         reach = Reach::of(&smaller);
-                        bits &=
-                            boxes.squared_distances(&reach).simd_le(f32x8::splat(reach.squared)).to_bitmask();
+                        bits &= reach.meets(boxes.squared_distances(&reach));
                     }
                 }
-                continue;
             }
-            // The nearest child is opened first, so it is pushed last.
-            let distances = distances.to_array();
-            let (mut nearest, mut at) = (f32::INFINITY, open);
-            while bits != 0 {
-                let j = bits.trailing_zeros();
-                bits &= bits - 1;
-                stack[open] = (level - 1, first as u32 + j);
-                if distances[j as usize] < nearest {
-                    (nearest, at) = (distances[j as usize], open);
-                }
-                open += 1;
-            }
-            if at < open {
-                stack.swap(at, open - 1);
+            next = path.next(self, &reach);
+        }
+    }
+}
+
+/// Levels of nodes that `u32` leaves can fill.
+const LEVELS: usize = 11;
+
+/// A node some of whose children were not searched.
+#[derive(Clone, Copy)]
+struct OpenNode {
+    level: u32,
+    index: u32,
+    /// A bit for each of them.
+    bits: u32,
+    /// The reach for which their boxes were tested, squared.
+    tested: f32,
+    /// How near each child is; the nearest is searched first.
+    nearness: [f32; WIDTH],
+}
+
+impl OpenNode {
+    const NONE: OpenNode = OpenNode { level: 0, index: 0, bits: 0, tested: 0.0, nearness: [0.0; WIDTH] };
+
+    /// Takes the nearest child.
+    #[inline(always)]
+    fn take(&mut self) -> u32 {
+        let mut nearest = self.bits.trailing_zeros();
+        let mut rest = self.bits & (self.bits - 1);
+        while rest != 0 {
+            let j = rest.trailing_zeros();
+            rest &= rest - 1;
+            if self.nearness[j as usize] < self.nearness[nearest as usize] {
+                nearest = j;
             }
         }
+        self.bits &= !(1 << nearest);
+        self.index * WIDTH as u32 + nearest
+    }
+}
+
+/// The open nodes from the root down. Every step of a search goes through it, so nothing of it is to be a call.
+struct Path {
+    nodes: [OpenNode; LEVELS],
+    depth: usize,
+}
+
+impl Path {
+    #[inline(always)]
+    fn open(&mut self, node: OpenNode) {
+        self.nodes[self.depth] = node;
+        self.depth += 1;
+    }
+
+    /// Level and number of the node to search next; children that a disk which shrank meets no more are left out.
+    #[inline(always)]
+    fn next(&mut self, bvh: &Bvh, reach: &Reach) -> Option<(u32, u32)> {
+        while self.depth > 0 {
+            let node = &mut self.nodes[self.depth - 1];
+            if node.tested != reach.squared {
+                node.tested = reach.squared;
+                let boxes = &bvh.levels[node.level as usize][node.index as usize];
+                node.bits &= reach.meets(boxes.squared_distances(reach));
+            }
+            if node.bits == 0 {
+                self.depth -= 1;
+                continue;
+            }
+            let child = (node.level - 1, node.take());
+            self.depth -= usize::from(node.bits == 0);
+            return Some(child);
+        }
+        None
     }
 }
 
@@ -178,46 +246,6 @@ fn inside(range: &std::ops::Range<usize>, first: usize, level: u32) -> u32 {
     let begin = (range.start >> (BITS * level)).saturating_sub(first).min(WIDTH);
     let last = ((range.end - 1) >> (BITS * level)) + 1;
     (ALL << begin) & !(ALL << last.saturating_sub(first).min(WIDTH))
-}
-
-/// Steps of the Hilbert curve along a side of the unit frame.
-const SIDE: u32 = 1 << 16;
-
-/// Place of a point of the unit frame along a Hilbert curve.
-pub(super) fn hilbert(p: Point) -> u32 {
-    let cell = |c: f64| (((c + 1.0) * 0.5 * f64::from(SIDE)) as u32).min(SIDE - 1);
-    hilbert_place(cell(p.x), cell(p.y))
-}
-
-/// Place of a cell along the curve. At every bit the curve turns by one of four symmetries, and these are
-/// composed for all bits at once, by distances 1, 2, 4 and 8 between bits, as a parallel prefix sum.
-fn hilbert_place(x: u32, y: u32) -> u32 {
-    const ALL: u32 = SIDE - 1;
-    let (a, b, c, d) = (x ^ y, ALL ^ x ^ y, ALL ^ (x | y), x & (y ^ ALL));
-    // The symmetry so far (`swap`, `turn`) and what it makes of the bits (`even`, `odd`).
-    let mut swap = a | (b >> 1);
-    let mut turn = (a >> 1) ^ a;
-    let mut even = ((c >> 1) ^ (b & (d >> 1))) ^ c;
-    let mut odd = ((a & (c >> 1)) ^ (d >> 1)) ^ d;
-    for step in [2, 4, 8] {
-        let (a, b, c, d) = (swap, turn, even, odd);
-        swap = (a & (a >> step)) ^ (b & (b >> step));
-        turn = (a & (b >> step)) ^ (b & ((a ^ b) >> step));
-        even ^= (a & (c >> step)) ^ (b & (d >> step));
-        odd ^= (b & (c >> step)) ^ ((a ^ b) & (d >> step));
-    }
-    let (a, b) = (even ^ (even >> 1), odd ^ (odd >> 1));
-    let low = x ^ y;
-    let high = b | (ALL ^ (low | a));
-    spread(high) << 1 | spread(low)
-}
-
-/// The sixteen low bits at the even places.
-fn spread(x: u32) -> u32 {
-    let x = (x | x << 8) & 0x00FF_00FF;
-    let x = (x | x << 4) & 0x0F0F_0F0F;
-    let x = (x | x << 2) & 0x3333_3333;
-    (x | x << 1) & 0x5555_5555
 }
 
 /// A search disk in `f32`, its radius rounded up by the round-off of center and boxes.
@@ -241,6 +269,12 @@ impl Reach {
         // Boxes around nothing, which fill the last nodes, are infinitely far and meet no disk.
         let squared = (radius * radius).min(f32::MAX);
         Reach { x: disk.center.x as f32, y: disk.center.y as f32, squared }
+    }
+
+    /// Which boxes at these squared distances it meets, a bit for each.
+    #[inline]
+    fn meets(&self, squared_distances: f32x8) -> u32 {
+        squared_distances.simd_le(f32x8::splat(self.squared)).to_bitmask()
     }
 }
 
@@ -282,17 +316,6 @@ impl Boxes {
 mod tests {
     use super::*;
     use crate::geom::point;
-
-    #[test]
-    fn the_hilbert_curve_goes_from_cell_to_neighboring_cell() {
-        let mut cells: Vec<(u32, u32, u32)> =
-            (0..64 * 64).map(|i| (hilbert_place(i / 64, i % 64), i / 64, i % 64)).collect();
-        cells.sort_unstable();
-        for (i, w) in (0..).zip(cells.windows(2)) {
-            assert_eq!(w[0].0, i);
-            assert_eq!(w[0].1.abs_diff(w[1].1) + w[0].2.abs_diff(w[1].2), 1, "{w:?}");
-        }
-    }
 
     #[test]
     fn a_search_meets_exactly_the_boxes_in_reach() {

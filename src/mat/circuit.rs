@@ -4,8 +4,8 @@
 //! and fro in memory. Here they stand one after the other, a *stop* for each, with what a level asks of
 //! them; all radii stand together, as most of them are only compared.
 
-use super::bvh::hilbert;
 use super::graph::Graph;
+use super::hilbert::hilbert;
 use super::leg::{After, Leg};
 use super::site::{Foot, NONE, Site};
 use crate::geom::Point;

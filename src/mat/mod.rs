@@ -30,6 +30,7 @@ mod division;
 mod face;
 mod frame;
 mod graph;
+mod hilbert;
 mod joints;
 mod kinds;
 mod lamination;

@@ -128,7 +128,9 @@ impl<'a> Field<'a> {
             growth.glance(ahead);
         }
         if !growth.is_done() {
-            self.bvh.search(growth.disk(), |i| growth.try_site(i).then(|| growth.disk_if_open()));
+            self.bvh.search_around(growth.probe.base, growth.disk(), |i| {
+                growth.try_site(i).then(|| growth.disk_if_open())
+            });
         }
         growth.best
     }
@@ -146,13 +148,9 @@ struct Growth<'a> {
     floor: f64,
     /// The disk as it is looked for in boxes.
     reach: Reach,
-    /// What was tried first, as the hierarchy will come to it again.
-    tried: [Shot; TRIED],
-    count: usize,
+    /// The two sites that meet at the joint, if they hold back nothing there.
+    own: [u32; 2],
 }
-
-/// Shots that are remembered: more than most joints try before the search.
-const TRIED: usize = 8;
 
 impl<'a> Growth<'a> {
     fn of(field: &'a Field<'a>, joint: u32) -> Growth<'a> {
@@ -163,9 +161,9 @@ impl<'a> Growth<'a> {
             radius: best.radius * (1.0 - direction_error(field.sites, joint, field.blur)),
             ..disk
         });
-        let nothing = Shot { radius: OUTSIDE, site: NONE, contact: Contact::Start };
-        let (reach, tried) = (Reach::of(&disk), [nothing; TRIED]);
-        Growth { field, probe, best, center: disk.center, osculating, floor: 0.0, reach, tried, count: 0 }
+        let reach = Reach::of(&disk);
+        let own = clear_at(field.sites, joint, &probe);
+        Growth { field, probe, best, center: disk.center, osculating, floor: 0.0, reach, own }
     }
 
     fn disk(&self) -> SearchDisk {
@@ -196,31 +194,20 @@ impl<'a> Growth<'a> {
     fn try_site(&mut self, i: u32) -> bool {
         // That which holds it back does so no more than it does.
         let is_known = i == self.best.site && self.best.contact != Contact::Whole;
-        if is_known || self.field.sites[i as usize].is_beyond(self.center, self.best.radius) {
+        if is_known
+            || self.own.contains(&i)
+            || self.field.sites[i as usize].is_beyond(self.center, self.best.radius)
+        {
             return false;
         }
-        let shot = self.shot_at(i);
+        let (radius, contact) = touch(Span::whole(&self.field.sites[i as usize]), &self.probe);
+        let shot = Shot { radius, site: i, contact };
         if !(is_better(self.field.sites, &shot, &self.best) && self.counts(i)) {
             return false;
         }
         let shrunk = shot.radius < self.best.radius;
         (self.best, self.center) = (shot, self.probe.center(shot.radius));
         shrunk
-    }
-
-    /// The disk to a site.
-    #[inline]
-    fn shot_at(&mut self, i: u32) -> Shot {
-        if let Some(known) = self.tried[..self.count].iter().find(|shot| shot.site == i) {
-            return *known;
-        }
-        let (radius, contact) = touch(Span::whole(&self.field.sites[i as usize]), &self.probe);
-        let shot = Shot { radius, site: i, contact };
-        if let Some(free) = self.tried.get_mut(self.count) {
-            *free = shot;
-            self.count += 1;
-        }
-        shot
     }
 
     /// Whether a site may hold back a disk that osculates.
@@ -252,6 +239,17 @@ fn is_better(sites: &[Site], shot: &Shot, best: &Shot) -> bool {
         return shot.radius < best.radius;
     }
     shot.radius < best.radius + if own > other { error } else { -error }
+}
+
+/// Those of the two sites at a joint that do not hold back its disk there: vertices, and sites whose other end lies
+/// on the tangent or behind it, as it does but where round-off has turned the normal.
+fn clear_at(sites: &[Site], joint: u32, probe: &Probe) -> [u32; 2] {
+    let before = &sites[joint as usize];
+    let after = &sites[before.next as usize];
+    let is_clear =
+        |site: &Site, far: Point| site.is_vertex || probe.normal.dot(far - probe.base) <= site.error;
+    [(joint, before, before.start.point), (before.next, after, after.end.point)]
+        .map(|(i, site, far)| if is_clear(site, far) { i } else { NONE })
 }
 
 /// Angle by which round-off may have turned the normal at a joint, and with it an osculating disk: that of

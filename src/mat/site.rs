@@ -136,18 +136,28 @@ impl Site {
         c.distance(self.start.point).min(c.distance(self.end.point))
     }
 
-    /// Whether a disk inside of the pocket does not reach the carrier for sure, nor would one whose radius is
-    /// larger by its round-off. The carrier is at the distance `s` where `2 s - k s^2 = 2 w.n - k |w|^2`; the left
-    /// side grows with `s` up to the center.
+    /// Whether a disk inside of the pocket does not reach the site for sure, nor would one whose radius is larger by
+    /// its round-off: both ends lie outside, and the center either beside the sector between their normals, or too
+    /// far from the carrier. The carrier is at the distance `s` where `2 s - k s^2 = 2 w.n - k |w|^2`; the left side
+    /// grows with `s` up to the center.
     #[inline]
     pub fn is_beyond(&self, c: Point, radius: f64) -> bool {
         /// Roundings of either side, and of radii, relative to their terms.
         const ROUNDINGS: f64 = 256.0 * f64::EPSILON;
-        let (w, k) = (c - self.start.point, self.curvature);
-        let square = k * w.length_squared();
-        let power = 2.0 * w.dot(self.start.normal) - square;
+        let (w, from_end, k) = (c - self.start.point, c - self.end.point, self.curvature);
+        let (square, reach) = (w.length_squared(), radius * (radius + ROUNDINGS * (1.0 + radius)));
+        if square <= reach || from_end.length_squared() <= reach {
+            return false;
+        }
+        if w.dot(self.start.normal.right()) < 0.0
+            || from_end.dot(self.end.normal.right()) > 0.0
+            || self.is_vertex
+        {
+            return true;
+        }
+        let power = 2.0 * w.dot(self.start.normal) - k * square;
         let reached = radius * (2.0 - k * radius);
-        !self.is_vertex && k * radius < 1.0 && power > reached + ROUNDINGS * (1.0 + square.abs())
+        k * radius < 1.0 && power > reached + ROUNDINGS * (1.0 + (k * square).abs())
     }
 
     /// Whether a place of the carrier lies between the ends.
