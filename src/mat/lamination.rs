@@ -239,12 +239,13 @@ impl Lamination {
         let mut number = vec![NONE; joints.len().max(all.sites.len())];
         let mut last = vec![NONE; all.sites.len()];
         let mut first = vec![NONE; all.sites.len()];
+        let mut joint_of_disk = Vec::new();
         for (i, &joint) in joints.iter().enumerate().take(self.visits.len()) {
             let root = blocks.root(joint);
             let key = all.touching.get(&root).copied().unwrap_or(root) as usize;
             if number[key] == NONE {
-                number[key] = self.disks.len() as u32;
-                self.disks.push(disk_at(blocks.joint[root as usize]));
+                number[key] = joint_of_disk.len() as u32;
+                joint_of_disk.push(blocks.joint[root as usize]);
             }
             self.visits[i].disk = number[key];
             if self.visits[i].partner != NONE {
@@ -260,6 +261,8 @@ impl Lamination {
         for (f, l) in first.into_iter().zip(last).filter(|(f, _)| *f != NONE) {
             self.visits[f as usize].partner = l;
         }
+        // Joints stand to and fro in memory, which in a row is not waited for one by one.
+        self.disks = joint_of_disk.into_iter().map(disk_at).collect();
     }
 
     /// The pieces that end at the visits.

@@ -14,7 +14,7 @@ use super::site::{Foot, Joint, NONE, Site};
 use super::splice::{Drawn, same_places, splice};
 use super::{SiteKind, SiteRef};
 use crate::boundary::Pocket;
-use crate::geom::Vector;
+use crate::geom::{Point, Vector};
 use std::collections::HashMap;
 use std::f64::consts::FRAC_PI_2;
 use std::ops::Range;
@@ -55,9 +55,11 @@ impl Sites {
         };
         // Sweeps of a bulge up to this are not divided.
         let whole = (0.25 * FRAC_PI_2 * (1.0 + QUARTER_SLACK)).tan();
+        let mut parts = Vec::new();
         for row in splice(pocket.loops(), frame) {
             let hole = is_hole(&row, pocket);
-            let mut parts: Vec<Part> = Vec::with_capacity(row.len() + row.len() / 4);
+            parts.clear();
+            parts.reserve(row.len() + row.len() / 4);
             each_run(&row, whole, frame.noise, |run| add_parts(&run, whole, &mut parts));
             drop(row);
             let lent = lend_directions(&mut parts, frame.noise);
@@ -108,27 +110,24 @@ impl Sites {
     /// split at `direction` if that lies inside.
     fn add_cone(&mut self, before: Foot, after: &Part, direction: Option<Vector>) {
         let (n0, n1) = (before.normal, after.start.normal);
-        let mut normals = vec![n0];
-        let angle = n0.angle_to(n1);
+        let is_within_quarter = n0.cross(n1) < 0.0 && n0.dot(n1) >= 0.0;
+        let angle = if is_within_quarter { -FRAC_PI_2 } else { n0.angle_to(n1) };
         // A cusp may turn by half a turn and a rounding more.
         let angle = if angle > 0.0 { -std::f64::consts::PI } else { angle };
         let count = (-angle / FRAC_PI_2 - QUARTER_SLACK).ceil().max(1.0) as usize;
-        for i in 1..count {
+        let between = |i: usize| {
             let (sin, cos) = (angle * i as f64 / count as f64).sin_cos();
-            normals.push(n0.rotated(cos, sin));
-        }
-        normals.push(n1);
-        if let Some(u) = direction {
-            let inside =
-                |w: &[Vector]| w[0].cross(u) < 0.0 && u.cross(w[1]) < 0.0 && u.dot(w[0] + w[1]) > 0.0;
-            if let Some(i) = normals.windows(2).position(inside) {
-                normals.insert(i + 1, u);
-            }
-        }
+            n0.rotated(cos, sin)
+        };
         let source = SiteRef { kind: SiteKind::Vertex, ..after.source };
-        for w in normals.windows(2) {
-            let foot = |normal| Foot { point: after.start.point, normal };
-            self.push(foot(w[0]), foot(w[1]), 0.0, true, Joint::Cone, source);
+        let foot = |normal| Foot { point: after.start.point, normal };
+        let mut from = n0;
+        for to in (1..count).map(between).chain([n1]) {
+            let inside = |u: &Vector| from.cross(*u) < 0.0 && u.cross(to) < 0.0 && u.dot(from + to) > 0.0;
+            for normal in direction.filter(inside).into_iter().chain([to]) {
+                self.push(foot(from), foot(normal), 0.0, true, Joint::Cone, source);
+                from = normal;
+            }
         }
     }
 
@@ -193,7 +192,8 @@ impl Sites {
     /// Convex joints of different sectors at one place.
     fn find_touching(&mut self) {
         let convex = (0u32..).zip(&self.sites).filter(|(_, site)| site.joint == Joint::Convex);
-        for group in same_places(convex.map(|(i, site)| (i, site.end.point))) {
+        let places: Vec<(u32, Point)> = convex.map(|(i, site)| (i, site.end.point)).collect();
+        for group in same_places(places.iter().copied()) {
             self.touching.extend(group.iter().map(|&i| (i, group[0])));
         }
     }
