@@ -261,7 +261,7 @@ impl Lamination {
         for (f, l) in first.into_iter().zip(last).filter(|(f, _)| *f != NONE) {
             self.visits[f as usize].partner = l;
         }
-        // Joints stand to and fro in memory, which in a row is not waited for one by one.
+        // Joints lie apart in memory; fetched in one row, they are not waited for one by one.
         self.disks = joint_of_disk.into_iter().map(disk_at).collect();
     }
 

@@ -75,7 +75,8 @@ pub(super) fn same_places(places: impl Iterator<Item = (u32, Point)> + Clone) ->
     let cells = (CELLS * places.clone().count()).next_power_of_two().max(WORD);
     let cell = |p: Point| hash(place_key(p)) as usize & (cells - 1);
     let [mut taken, mut shared] = [vec![0u64; cells / WORD], vec![0u64; cells / WORD]];
-    for (at, bit) in places.clone().map(|(_, p)| (cell(p) / WORD, 1 << (cell(p) % WORD))) {
+    for cell in places.clone().map(|(_, p)| cell(p)) {
+        let (at, bit) = (cell / WORD, 1 << (cell % WORD));
         shared[at] |= taken[at] & bit;
         taken[at] |= bit;
     }
