@@ -114,10 +114,14 @@ fn tangent(span: &Span<'_>, probe: &Probe) -> Option<f64> {
     let w0 = (probe.base - span.from.point) + probe.offset;
     let w1 = (probe.base - span.to.point) + probe.offset;
     let near_start = w0.length_squared() <= w1.length_squared();
-    let (w, n) = if near_start { (w0, span.from.normal) } else { (w1, span.to.normal) };
+    let (w, end) = if near_start { (w0, span.from) } else { (w1, span.to) };
+    let n = end.normal;
     let overlap = OVERLAP * span.site.error;
-    let (r, f) = tangent_to_carrier(w, n, k, probe.normal)
-        .or_else(|| overlaps(w, n, k, probe.normal, overlap).then_some((span.site.error, 1.0)))?;
+    // Where loops touch, walls of different sectors turn their backs on each other.
+    let may_overlap = probe.base != end.point;
+    let (r, f) = tangent_to_carrier(w, n, k, probe.normal).or_else(|| {
+        (may_overlap && overlaps(w, n, k, probe.normal, overlap)).then_some((span.site.error, 1.0))
+    })?;
     if f <= DIRECTION_ERROR {
         return Some(r);
     }
