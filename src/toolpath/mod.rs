@@ -38,6 +38,7 @@ mod nest;
 mod pace;
 mod path;
 mod plan;
+mod ready;
 mod rest;
 mod roads;
 mod route;

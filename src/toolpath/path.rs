@@ -4,15 +4,15 @@ use super::amounts::Amounts;
 use super::cutter::Totals;
 use super::job::MAX_HEIGHTS;
 use super::plan::{MAX_MOVES, Planner, Prepared};
-use super::rest::{Rest, rest};
-use super::roads::Roads;
+use super::ready::{Ready, batches};
+use super::rest::Rest;
 use super::route::route;
 use super::time::Timer;
 use super::{Job, Moves, Order, Warning};
 use crate::error::Error;
 use crate::geom::{Element, Point};
 use crate::mat::Mat;
-use crate::offset::{Level, Part};
+use crate::offset::Level;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -173,49 +173,28 @@ impl Job {
         let order = self.order(mats, pockets);
         let clear = |mat| move |link: &Element, radius: f64| Mat::is_clear(mat, link, radius);
         let is_clear: Vec<_> = mats.iter().map(clear).collect();
-        let ready = |planner: &Planner, own: &mut PocketPath, i: usize| {
-            let most_retracts = || self.most_retracts(&mats[i], &levels[i]);
-            let roads = || {
-                let roads = Roads::new(&mats[i]);
-                if is_whole(&mats[i]) {
-                    own.unreachable = rest(&roads, self.wall_distance(), self.overlap());
-                }
-                roads
-            };
-            let (most_retracts, roads) = rayon::join(most_retracts, roads);
-            own.most_retracts = most_retracts;
-            planner.prepare(&levels[i], &is_clear[i], Some(roads))
-        };
+        let ready =
+            |planner: &Planner, i: usize| Ready::new(planner, i, (&mats[i], &levels[i]), &is_clear[i]);
         let heights = self.heights().len();
         if self.order == Order::Pocket {
-            for i in order {
-                let mut pocket = ready(planner, &mut pockets[i], i);
-                pockets[i].cut(planner, &mut pocket, 0..heights)?;
+            for some in batches(&order, |i| mats[i].counts().sites) {
+                let all: Vec<Ready> = some.par_iter().map(|&i| ready(planner, i)).collect();
+                for ready in all {
+                    let (i, mut pocket) = ready.noted_in(pockets);
+                    pockets[i].cut(planner, &mut pocket, 0..heights)?;
+                }
             }
             return Ok(());
         }
+        let all: Vec<Ready> = order.par_iter().map(|&i| ready(planner, i)).collect();
         let mut prepared: Vec<(usize, Prepared)> =
-            order.into_iter().map(|i| (i, ready(planner, &mut pockets[i], i))).collect();
+            all.into_iter().map(|ready| ready.noted_in(pockets)).collect();
         for height in 0..heights {
             for (i, pocket) in &mut prepared {
                 pockets[*i].cut(planner, pocket, height..height + 1)?;
             }
         }
         Ok(())
-    }
-
-    /// The bound on retracts that the peaks of the axis give.
-    fn most_retracts(&self, mat: &Mat, levels: &[Level]) -> usize {
-        let tree = mat.levels();
-        let peaks = |level: &Level| {
-            // A peak within round-off of a level is a ridge of it.
-            let slack = self.overlap();
-            let reached = |p: &&Part| p.children.is_empty() && p.peak.radius >= level.distance - slack;
-            tree.parts.iter().filter(reached).count()
-        };
-        let rough = if self.finish > 0.0 && levels.len() > 1 { 1 } else { 0 };
-        let wall = if rough > 0 { peaks(&levels[0]).saturating_sub(1) } else { 0 };
-        levels.get(rough).map_or(0, |level| self.heights().len() * peaks(level) + wall)
     }
 
     /// How long it takes, each pocket and all.
@@ -339,6 +318,6 @@ impl Job {
 }
 
 /// Whether an axis tells what is out of reach.
-fn is_whole(mat: &Mat) -> bool {
+pub(super) fn is_whole(mat: &Mat) -> bool {
     mat.least_radius() == 0.0
 }

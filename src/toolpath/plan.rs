@@ -38,7 +38,7 @@ const AHEAD: usize = 16;
 const LEVEL_ERROR: f64 = 16384.0 * f64::EPSILON;
 
 /// Whether the tool may run along a link with this much room around it.
-pub(super) type IsClear<'a> = dyn Fn(&Element, f64) -> bool + 'a;
+pub(super) type IsClear<'a> = dyn Fn(&Element, f64) -> bool + Sync + 'a;
 
 /// Plans pockets one after the other.
 pub(super) struct Planner<'a> {
